@@ -75,7 +75,7 @@ def is_spin(block: Blocking) -> bool:
 
 
 def is_aside(block: Blocking) -> bool:
-    """Return whether a nested spin is of nodes that nothing else serves: only then it has wakers."""
+    """Return whether only a nested spin serves its nodes: only then it has wakers."""
     return is_spin(block) and bool(block.wakers)
 
 

@@ -1,4 +1,4 @@
-"""``python -m ros2cc_extract``: the command line, in whatever folder one stands."""
+"""``python -m ros2cc_extract``: the command line, from any folder."""
 
 import sys
 

@@ -1,7 +1,7 @@
 """
 Files of the user's cache folder, which this tool alone writes.
 
-What is in them is believed: verdicts and findings are told from there. So a folder or a file
+What is in them is believed: verdicts and findings are reported from there. So a folder or a file
 that another user can change counts as none, and each file says by a checksum that it is what was
 written under its name. Nothing in it can run: it is JSON, and makes values of known types.
 
@@ -161,7 +161,7 @@ def _own_folder(folder: Path) -> Path:
 
 
 def _make_private(folder: Path) -> None:
-    """Make a folder and those above it, closed to others whatever the process may grant."""
+    """Make a folder and those above it, closed to others with any umask."""
     if not folder.is_dir():
         if folder.parent != folder:
             _make_private(folder.parent)

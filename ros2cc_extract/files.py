@@ -33,7 +33,7 @@ class Files(Protocol):
         """Whether there is anything at ``path``, as far as one may look."""
 
     def is_file(self, path: Path) -> bool:
-        """Whether a regular file is there; what is barred counts, so that reading it tells."""
+        """Whether a regular file is there; also one without permission: reading it says so."""
 
     def is_folder(self, path: Path) -> bool:
         """Whether a folder is there."""
@@ -46,7 +46,7 @@ class Files(Protocol):
         """
 
     def walk(self, folder: Path, on_error: OnError) -> Iterator[Walked]:
-        """As ``os.walk``: whoever takes names out of the list of folders leaves these out."""
+        """Walk as ``os.walk`` does: folders that the caller removes from the list are left out."""
 
 
 class Disk:

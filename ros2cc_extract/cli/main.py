@@ -52,7 +52,7 @@ COMMANDS = {
 OF_RUNNING_NODES = ('run', 'env', 'collect', 'attach', 'why', 'confirm', 'explore')
 WRITES_DATA = ('spec', 'system', 'merge')
 HEARS_ITSELF = ('check', 'fleet', 'run', 'attach')
-"""Requests to end: they tell what is known by then, or hand them on to what they have begun."""
+"""Commands that handle requests to end: they report what is known, or pass the request on."""
 LONGEST_MESSAGE = 300
 OBJECTS_BEFORE_COLLECTING = 100_000
 """Python looks for unused cycles after 700 new objects: 100 times before a command begins."""
@@ -155,7 +155,7 @@ def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
 
 
 def _refusal(error: OSError) -> str:
-    """What the system does not let us do, as far as it is not told where it happens."""
+    """What the system does not let us do, unless it is reported where it happens."""
     reason = error.strerror or str(error) or type(error).__name__
     if not _has_folder():
         return 'the current folder no longer exists'

@@ -37,7 +37,7 @@ VERBS: Mapping[str, str] = {
     'changes': 'changes',
     'pieces': 'shares piece by piece',
 }
-"""The facts that are lists, each with the verb that tells one entry."""
+"""The facts that are lists, each with the verb for one entry."""
 Named = TypeVar('Named', Callback, CallbackGroup)
 
 
@@ -140,7 +140,7 @@ def _of_list(name: str, before: Sequence[object], now: Sequence[object]) -> Iter
 
 
 def _of_unresolved(before: Spec, now: Spec) -> Iterator[Drift]:
-    """What is unresolved elsewhere; of callbacks, groups and the executor their facts tell."""
+    """What is unresolved elsewhere; callbacks, groups and the executor report their own facts."""
     old, new = (
         {(each.subject, each.fact): each for each in unit.unresolved} for unit in (before, now)
     )

@@ -214,7 +214,7 @@ def _functions(unit: Spec, node: str) -> set[str]:
 
 
 def _lines(unit: Spec) -> set[tuple[str, int]]:
-    """Give where a unit makes what somebody wrote, whatever folder its files are named from."""
+    """Return the lines of the user where a unit makes entities; files by name, without folders."""
     places = {c.source for c in unit.callbacks if not c.builtin} | {unit.executor.source}
     return {(place.file.rpartition('/')[2], place.line) for place in places if place}
 
@@ -324,7 +324,7 @@ def _is_default(executor: Executor) -> bool:
 
 
 def _diff_facts(unit: str, mine: Callback, theirs: Callback) -> Iterator[Difference]:
-    # A live run does not tell whose answer a done-callback has.
+    # A live run does not show whose answer a done-callback has.
     is_untold = mine.entity is EntityKind.DONE_CALLBACK and theirs.key is None
     key = mine.key if is_untold else theirs.key
     for fact, a, b in (

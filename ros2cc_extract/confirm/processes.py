@@ -65,7 +65,7 @@ class Node:
 
 def release_of(python: str) -> str | None:
     """
-    Give the version of rclpy that an interpreter has, `None` where it does not tell.
+    Return the version of rclpy that an interpreter has, `None` if it does not say.
 
     :raises ToolNotFoundError: when it has none, or is none.
     """
@@ -193,7 +193,7 @@ def _running(
     try:
         yield process
     finally:
-        # Its session is its own: whatever it has started ends with it.
+        # Its session is its own: all that it has started ends with it.
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
         process.wait()

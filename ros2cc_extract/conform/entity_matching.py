@@ -65,7 +65,7 @@ def _match(trace: Trace, executor: int, spec: Spec) -> _Matched:
             continue
         fitting = [p for p, c in enumerate(spec.callbacks) if _is_same(subject, c)]
         free = [p for p in fitting if _is_free(subject, there[p], spans)]
-        # Nobody first; else whoever is over, as a timer that is made anew for each shot.
+        # A free place first; else one that is over, as of a timer that is made anew for each shot.
         place = min(free, key=lambda p: bool(there[p]), default=None)
         if place is not None:
             there[place].append(subject)

@@ -141,7 +141,7 @@ class _Search:
             return []
         heads.sort(key=lambda head: head[1].clock_ns)
         first = heads[0][1].clock_ns
-        # What has arrived is there, whatever else threads tell late.
+        # What has arrived is there, even if threads report other steps late.
         arrived = min((each.clock_ns for _, each in heads if _has_arrived(each)), default=inf)
         return [
             head
@@ -190,7 +190,7 @@ class _Search:
 
 
 def _reordered_ns(path: Sequence[Observation]) -> int:
-    """How long after others a step was told that a path has before them."""
+    """How long after others a step was reported that a path has before them."""
     most, first_ns = 0, path[-1].clock_ns if path else 0
     for each in reversed(path):
         most = max(most, each.earliest_ns - first_ns)

@@ -1,5 +1,5 @@
 """
-What a specification does not tell of an execution that is none of its paths.
+What a specification does not say about an execution that is none of its paths.
 
 A live run does not see what a coroutine awaits, nor that a callback spins; source may not know a
 group. Then it is not the model that is wrong: nothing is decided.
@@ -25,7 +25,7 @@ _OPENS, _CLOSES = ('begin', 'resume', 'run'), ('end', 'suspend', 'pause')
 
 class Gap(NamedTuple):
     """
-    Something that the specification does not tell.
+    Something that the specification does not say.
 
     :param name: of the callback, group or executor.
     :param mend: what to do about it.

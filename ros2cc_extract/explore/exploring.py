@@ -199,5 +199,5 @@ def founds_of(seen: Seen) -> Iterator[Found]:
 def _begin_of_tail(seen: Seen, end: int, kind: Kind) -> int:
     """The last moment before at which nobody was at work."""
     quiet = [0, *(each for each in seen.rounds if 0 < each < end)]
-    # An exception is told when its callback is over, and somebody else may have begun since.
+    # An exception is reported when its callback is over, and another may have begun since.
     return quiet[-2] if kind is Kind.EXCEPTION and len(quiet) > 1 else quiet[-1]

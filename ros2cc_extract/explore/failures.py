@@ -142,7 +142,7 @@ def _at(standing: Standing, kind: Kind, words: str, evidence: str) -> Failure:
 
 
 def exception(row: Row) -> Failure | None:
-    """What a row `failed` tells, where the program had a part in it."""
+    """Return the failure of a row `failed`, if the program had a part in it."""
     name, frames = str(row['type']), [(str(f[0]), int(f[1]), str(f[2])) for f in row['frames']]
     own = [f for f in frames if not (_OF_LIBRARIES.search(f[0]) or f[0].startswith(_OF_TOOL))]
     if name in _ENDS or not own:
@@ -161,7 +161,7 @@ def exception(row: Row) -> Failure | None:
 
 
 def lost_update(row: Row) -> Failure:
-    """What a row `lost` tells."""
+    """Return the failure of a row `lost`."""
     name = str(row['name']).rpartition('.')[2]
     words = (
         f'{name} was {row["read"]} when line {row["read_line"]} had read it, another thread set '

@@ -31,7 +31,7 @@ class Names:
 
 @dataclass(frozen=True)
 class Wanted:
-    """A name somebody would like to have, and what tells him from others of that name."""
+    """A name that is wanted, and what distinguishes its owner from others of that name."""
 
     label: str
     key: str | None

@@ -20,7 +20,7 @@ from ros2cc_extract.verify.results.rates import with_arrivals
 from ros2cc_extract.verify.results.results import Verification
 
 OPEN_WAITS = (UNDECIDED.code, OUTSIDE_WAIT.code)
-"""Told of a wait of which no other rule says more."""
+"""Reported for a wait if no other rule says more about it."""
 _WEIGHTS = tuple(Severity)
 _OF_WAITS = ('CC1', 'CC2')
 
@@ -80,13 +80,13 @@ def _without_what_is_decided(findings: Sequence[Finding]) -> Iterator[Finding]:
 
 
 def _is_told(finding: Finding, told: Collection[tuple[Place, str]]) -> bool:
-    """Whether the scan itself has told at this place why something is missing."""
+    """Whether the scan itself has reported at this place why something is missing."""
     reason = finding.cause or finding.message.partition(': unit ')[0]
     return reason != finding.message and (finding.place, reason) in told
 
 
 def _as_one(findings: Sequence[Finding]) -> Finding:
-    """Tell what has one cause once, with the number of units that it shows in."""
+    """Report what has one cause once, with the number of units that it shows in."""
     first = findings[0]
     more = len({finding.unit for finding in findings}) - 1
     if not first.cause or not more:
@@ -132,7 +132,7 @@ def _matters(diagnostic: Diagnostic, releases: Collection[str | None]) -> bool |
 
 
 def is_unread(finding: Finding) -> bool:
-    """Whether it tells of a file of which nothing could be read; that decides no exit status."""
+    """Whether it is about a file of which nothing could be read; that decides no exit status."""
     return finding.code == UNREADABLE.code and finding.severity is Severity.ERROR
 
 

@@ -1,7 +1,7 @@
 """
 What a unit's promise rests on in a system: that its neighbours answer.
 
-Alone, a unit is judged as if whoever is asked answered. In a system that assumption is discharged
+Alone, a unit is judged as if every service answered. In a system that assumption is discharged
 by the neighbours' own verdicts: a promise that every wait ends is kept only where each service and
 action that is waited for is offered by units that keep theirs.
 """

@@ -137,7 +137,7 @@ def _compare_versions(client: Any, address: str) -> None:
     same = 'start: dask worker, where the same version of ros2cc-extract and Python is installed'
     try:
         versions = client.run(tool_version)
-    except Exception as error:  # whatever it is that a worker cannot do
+    except Exception as error:  # a worker may fail in any way
         what = f'a worker of {address} cannot run ros2cc-extract: {type(error).__name__}'
         raise InputError(what, None, same) from None
     if not versions:
@@ -206,7 +206,7 @@ def _tried(work: Callable[[Job], Answer], job: Job) -> tuple[Answer] | None:
 
 
 def _fetched(future: Any) -> Any:
-    """The result of a task; ``None`` where there is none to be had, whatever the reason."""
+    """The result of a task; ``None`` if it has none for any reason."""
     try:
         return future.result(timeout=FETCHING_S)
     except BaseException as error:

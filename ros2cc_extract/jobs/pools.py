@@ -1,5 +1,5 @@
 """
-Lists of independent jobs: one interface, whoever does them.
+Lists of independent jobs: one interface for all that can do them.
 
 Jobs and answers are plain values, and an answer depends on its job alone. So nothing changes with
 who gives it, or with how often somebody begins: what others cannot finish is done here.
@@ -40,7 +40,7 @@ class Pool(Protocol):
         """
         Give each answer with the number of its job, as they come.
 
-        Whoever stops early closes it, and nothing is done any more.
+        To stop early, close it: nothing is done any more.
 
         :param until: others are not waited for any longer; ``work`` looks at the clock itself.
         """
@@ -82,7 +82,7 @@ def in_order(
     """
     All answers in the order of their jobs.
 
-    :param done: told how many there are by now.
+    :param done: called with the number of answers so far.
     """
     found: dict[int, Answer] = {}
     with closing(pool.each(work, jobs)) as answers:

@@ -102,7 +102,7 @@ class ProcessPool(Generic[Request, Answer]):
         done: Done = lambda number: None,
     ) -> list[tuple[Answer, int | None]]:
         """
-        Answer ``requests``, each by the child named in ``by`` or by whoever is free.
+        Answer ``requests``, each by the child named in ``by`` or by any that is free.
 
         :param done: called with the number of each request that is answered.
         :return: answers in the order of the requests, and which child gave them.
@@ -238,7 +238,7 @@ def ends_with_us() -> Callable[[], None]:
 
 
 def _prctl() -> Prctl | None:
-    """The call of Linux by which a process says what it wants to be told; see ``prctl(2)``."""
+    """The system call of Linux that controls a process; see ``prctl(2)``."""
     try:
         import ctypes
 
@@ -248,7 +248,7 @@ def _prctl() -> Prctl | None:
 
 
 def _packed(answer: Callable[[Request], Answer], request: Request) -> bytes:
-    """The pickled answer; ``None`` when there is none to be had here, whatever the reason."""
+    """The pickled answer; ``None`` if there is none here for any reason."""
     try:
         return pickle.dumps((answer(request),), pickle.HIGHEST_PROTOCOL)
     except Exception:  # the parent tries again, and fails as it would have without children

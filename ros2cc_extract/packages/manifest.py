@@ -78,7 +78,7 @@ def python_files(
     List the Python files that an ament linter looks at.
 
     :param excludes: shell patterns of file names, or of paths as they are walked.
-    :param on_error: is told of folders that cannot be looked into.
+    :param on_error: called with folders that cannot be read.
     :raises InputError: for a path that is not there.
     """
     found: dict[Path, None] = {}

@@ -1,4 +1,4 @@
-"""The whole job without its telling: scan, close, verify, find, and take out what is accepted."""
+"""The whole job without its report: scan, close, verify, find, and take out what is accepted."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Job:
     """
     What to check, and how.
 
-    :param arguments: what launch files among the paths are told, by name.
+    :param arguments: arguments of launch files among the paths, by name.
     :param known: fingerprints of findings that are accepted already.
     :param root: repository to which fingerprints are relative.
     :param shows_verdicts: the verdicts of the profile in ``options`` are wanted too, and not only
@@ -62,8 +62,8 @@ class Job:
     :param spent_s: of these seconds, on what was checked before.
     :param files: those of the disk, or of another revision.
     :param noticed: what is known already, such as folders that cannot be looked into.
-    :param pool: who verifies; the cores of this machine by default.
-    :param shard: of all units only its own are verified and told.
+    :param pool: what runs the searches; the cores of this machine by default.
+    :param shard: of all units only its own are verified and reported.
     :param known_units: what shards have found, by ``Task.key``; nothing is verified then.
     """
 
@@ -307,7 +307,7 @@ def _patience(deadline: Deadline | None, seconds: float | None) -> Patience:
 
 
 def _defects(units: Sequence[Spec], examined: Sequence[Examined]) -> Iterator[Diagnostic]:
-    """Tell which units could not be verified because something is wrong here."""
+    """Report the units that could not be verified because of a defect of this tool."""
     for unit, each in zip(units, examined, strict=True):
         if each.shown.defect:
             yield Diagnostic(

@@ -77,7 +77,7 @@ class Result:
 
 def repositories(folders: Sequence[Path]) -> list[Repository]:
     """
-    Name each folder by as few of its last parts as tell it from the others.
+    Name each folder by as few of its last parts as distinguish it from the others.
 
     :raises InputError: when one is no folder, or is given twice.
     """
@@ -109,7 +109,7 @@ def origin_of(repository: Repository, job: Job) -> dict[str, Any]:
     for path in _read_files(repository.folder):
         try:
             content = read_regular(path, SIZE_LIMIT_BYTES)
-        except OSError:  # the scan tells it
+        except OSError:  # the scan reports it
             content = b''
         name = str(path).encode('utf-8', 'surrogatepass')
         digest.update(b'%d %d ' % (len(name), len(content)) + name + content)

@@ -58,7 +58,7 @@ def scan_sources(
     :param parameters: what a launch sets for the nodes.
     :param files: those of the disk, or of another revision.
 
-    Nodes without any callback, such as those that only publish, are told and left out: neither
+    Nodes without any callback, such as those that only publish, are reported and left out: neither
     the published format nor a model has a place for them.
     """
     from ros2cc_extract.extract.static.api import scan

@@ -31,9 +31,9 @@ def examine(
     shelf: Shelf | None = None,
 ) -> Examined:
     """
-    Verify one unit; runs that are not kept are told by nobody but ``_with_runs``.
+    Verify one unit; only ``_with_runs`` puts runs that are not kept into words.
 
-    What is wrong with our own model of it is told, and the other units go on.
+    An error of our own model of it is reported, and the other units go on.
     """
     try:
         return _examine(task, watch, deadline, shelf or Shelf())
@@ -71,7 +71,7 @@ def _verify_in_time(
     deadline: Deadline | None,
     shelf: Shelf,
 ) -> Verification:
-    """Searches look at the clock, and tell what they know; what else takes long is ended."""
+    """Verify until the deadline: searches return what they know, all else is ended."""
     options = replace(options, limits=replace(options.limits, deadline=deadline))
     try:
         with ended_by(deadline):

@@ -2,7 +2,7 @@
 Verdicts and findings of many units: from the cache, or by a pool of workers.
 
 What travels between processes is plain data, and what the cache keeps is JSON. A run that nobody
-has asked for stays behind; whoever asks for it later has the unit verified once more.
+has asked for stays behind; asking for it later verifies the unit once more.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ def examine_all(
     :param deadline: for all of them; what is not decided by then is undecided.
     :param pool: who verifies, by default the cores of this machine.
     :param known: answers of others by ``Task.key``; where they are given, nothing is verified.
-    :param interrupted: somebody has ended it before: only what the cache knows is told.
+    :param interrupted: it was ended before: only what the cache has is reported.
     """
     engines = {task.options.engine.value for task in tasks}
     version = '\0'.join((tool_version(), *sorted(engines)))
@@ -146,7 +146,7 @@ def _all_known(tasks: Sequence[Task], known: Mapping[str, Examined]) -> Iterator
 
 def _answer(shelf: _Later, deadline: Deadline | None, meter: Meter | None, task: Task) -> Examined:
     """One job of ``examine_all``, wherever it is done."""
-    # Imported here: what the cache knows is told without a checker, which loads slowly.
+    # Imported here: what the cache has is reported without a checker, which loads slowly.
     from ros2cc_extract.pipeline.unit_examination import examine, unasked
 
     if deadline is not None and deadline.is_over:

@@ -19,7 +19,7 @@ except ImportError:
 NO_PREFIX = '\0'
 
 
-class CcCommand(CommandExtension):  # type: ignore[misc]  # of whatever ros2cli is installed
+class CcCommand(CommandExtension):  # type: ignore[misc]  # of any installed ros2cli
     """Check what the callbacks of Python nodes can do to each other."""
 
     def add_arguments(

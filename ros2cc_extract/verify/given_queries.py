@@ -43,7 +43,7 @@ def ask_unit(
     """
     Ask other queries than its own of a unit.
 
-    They are asked of the plain text, whatever the options say: the compact text keeps only what
+    They are always asked of the plain text: the compact text keeps only what
     its own queries can see.
 
     :param watched: what ``watcher.seen`` of the queries has seen, as of ``render_alone``.

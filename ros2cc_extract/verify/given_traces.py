@@ -1,4 +1,4 @@
-"""Tells a run that UPPAAL saved or printed: found again in the model, replayed, put into words."""
+"""Put a run that UPPAAL saved or printed into words: find it in the model and replay it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _ENDLESS = Query('E[] true', '', None)
 
 def retell_unit(closed: ClosedSpec, run: Path, options: Options) -> Evidence:
     """
-    Tell a run of a unit's model, of the profile and text that the options name.
+    Put into words a run of a unit's model, of the profile and text that the options name.
 
     :raises InputError: when it cannot be read or is no run of that model.
     """
@@ -40,7 +40,7 @@ def retell_unit(closed: ClosedSpec, run: Path, options: Options) -> Evidence:
 
 def retell_model(path: Path, run: Path) -> Evidence:
     """
-    Tell a run of a model file.
+    Put into words a run of a model file.
 
     :raises InputError: when one cannot be read, or the run is not of the model.
     """

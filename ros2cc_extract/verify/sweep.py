@@ -100,8 +100,8 @@ def run_sweep(
     """
     Verify ``unit`` at every point.
 
-    :param pool: who does it.
-    :param on_done: told how many points are done.
+    :param pool: what runs the points.
+    :param on_done: called with the number of points done.
     """
     tasks = [(unit, replace(policy, threads=p.threads), _at(options, p)) for p in settings]
     verifications = in_order(pool, _verify, tasks, on_done)

@@ -32,14 +32,14 @@ def is_defect(error: Exception) -> bool:
 
 def failed_unit(closed: ClosedSpec, options: Options, error: Exception) -> Verification:
     """
-    Tell an error of our own model as a defect of this tool.
+    Report an error of our own model as a defect of this tool.
 
     The model was made here, of a unit without holes, so nobody else can mend it.
     """
     told = ' '.join(str(error).split())[:LONGEST_MESSAGE]
     defect = f'{type(error).__name__}: {told}'
     queries: tuple[Query, ...] = ()
-    with contextlib.suppress(Exception):  # of wrong queries none is shown; the defect is told
+    with contextlib.suppress(Exception):  # wrong queries are not shown; the defect is reported
         queries = _queries(closed, options)
     unit = _undecided(closed, options, queries, f'a defect of this tool: {defect}')
     return replace(unit, defect=defect)

@@ -4,7 +4,7 @@ Dead variables: values that nothing reads before they are written again, by proc
 A process is unfolded into nodes: its location and the values of its *controls*, variables that
 only it writes. At each node a backward analysis finds variables that neither this process nor a
 predicate can read before they are overwritten. They are set to their initial value when the
-process arrives there, which makes states equal that no query and no step tells apart
+process arrives there, which makes states equal that no query and no step distinguishes
 (docs/checker.md, "Dead variables").
 """
 

@@ -1,7 +1,7 @@
 """
 The words in which a checker is asked and answers, for those who do not ask it themselves.
 
-Whoever only says which engine is wanted, or reads a kept verdict, starts faster without a checker.
+Code that only names an engine, or reads a kept verdict, starts faster without a checker.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 """
-Queries that deny each other: ``A[] not (p)`` rules out ``E<> (p)``, so one search tells both.
+Queries that deny each other: ``A[] not (p)`` rules out ``E<> (p)``: one search answers both.
 
 A unit asks both of every two callbacks, which are most of its queries.
 """
@@ -43,7 +43,7 @@ def twins_of(formulas: Sequence[str]) -> dict[int, int]:
 
 
 def _is_one_bracket(rest: str) -> bool:
-    """Tell whether the bracket that is open before ``rest`` is closed by its end and no sooner."""
+    """Return whether the bracket open before ``rest`` is closed by its end and no sooner."""
     if not rest.endswith(')') or '/*' in rest or '//' in rest:
         return False
     depth = 1

@@ -121,7 +121,7 @@ def _walk(
 
 
 def _endless(semantics: Semantics, states: list[State], source: Place) -> StatePath:
-    """Tell how a run ends that should go on forever."""
+    """Return how a run ends that should go on forever."""
     last = states[-1]
     if last in states[:-1]:
         return StatePath(tuple(states[:-1]), cycle_start=states.index(last))

@@ -155,7 +155,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
             known = _known(args, config, job, stderr)
             job = replace(job, known=known, spent_s=time.monotonic() - begun)
             outcome = check_paths(job, stderr)
-    except KeyboardInterrupt:  # before there was anything to tell
+    except KeyboardInterrupt:  # before there was anything to report
         if not termination.is_asked:
             raise
         print('interrupted', file=stderr)

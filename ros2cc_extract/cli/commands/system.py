@@ -77,7 +77,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
 
 def _joined(sides: Sequence[Side], stderr: TextIO) -> System:
-    """All sides as one; what is missing from one and in another is told."""
+    """Merge all sides; report what is missing from one and in another."""
     from ros2cc_extract.compare.system_merge import merge_systems
     from ros2cc_extract.compare.systems import diff_systems
     from ros2cc_extract.report.text.diff import difference_lines

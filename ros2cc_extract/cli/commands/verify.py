@@ -155,7 +155,7 @@ def _under_releases(closed: ClosedSpec, options: Options) -> Iterator[tuple[Clos
 def _verified(
     closed: ClosedSpec, options: Options, progress: OnProgress | None, shelf: Shelf
 ) -> Verification:
-    """One unit; an error of its model is told beside the other units."""
+    """Verify one unit; an error of its model is reported beside the other units."""
     from ros2cc_extract.verify.undecided import failed_unit, is_defect
     from ros2cc_extract.verify.unit import verify_unit
 

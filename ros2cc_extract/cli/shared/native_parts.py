@@ -30,7 +30,7 @@ HOOKS = {'run', 'env', 'attach'}
 
 
 def tell_what_is_missing(name: str, args: argparse.Namespace, stderr: TextIO) -> None:
-    """Tell of what ``name`` would use; who asked for plain Python knows."""
+    """Report missing parts that ``name`` would use, unless plain Python was asked for."""
     for module in _used(name, args):
         fault = _fault_of(module)
         if fault:

@@ -1,4 +1,4 @@
-"""Tells of releases of rclpy that nobody has looked at: none is taken for another in silence."""
+"""Report releases of rclpy that were never examined: none is silently taken for another."""
 
 from __future__ import annotations
 

@@ -120,7 +120,7 @@ class Race:
         return (*self.names, *dict.fromkeys(use.doer.name for use in callbacks))
 
     def related(self) -> tuple[Remark, ...]:
-        """The other writes; one function of several entities is told once."""
+        """The other writes; one function of several entities is listed once."""
         remarks = (
             Remark(use.place, f'{called(use.doer)} writes {use.access.name} here')
             for use in self.others
@@ -419,7 +419,7 @@ def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
 
 
 def _leaves_enough(first: Use, second: Use) -> bool:
-    """Who takes an item out because there is one finds one, whatever others put in."""
+    """Code that takes an item out because there is one finds one, if others only put items in."""
     return first.access.moves == TAKES and second.access.moves == ADDS
 
 

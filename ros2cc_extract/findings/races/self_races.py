@@ -1,7 +1,7 @@
 """
 What two runs of one callback do to each other's shared data.
 
-Told are three shapes: an update whose old value the other run has read too; a write that rests
+Three shapes are reported: an update whose old value the other run has read too; a write that rests
 on an earlier read, as a test or a copy; and what a run has written, waits, and reads back.
 """
 

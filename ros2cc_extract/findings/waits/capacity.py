@@ -4,7 +4,7 @@ How many callbacks can wait at the same time, each holding a worker thread.
 An exclusive group lets one of its members in, branches of one ``alternative`` mark never
 coexist, everything else may coincide. So a largest set of simultaneous waiters is a maximum
 matching between groups and marks, where a reentrant callback has a group of its own and an
-unmarked one a mark of its own. Where branches are told apart, the one with most waiters counts.
+unmarked one a mark of its own. Where branches are distinguished, the one with most waiters counts.
 """
 
 from __future__ import annotations

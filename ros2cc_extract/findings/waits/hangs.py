@@ -1,7 +1,7 @@
 """
 What of a run shows that callbacks wait forever: how they get there, and what it ends in.
 
-A run that refutes *it always ends* goes on until nothing moves any more, so that whatever else
+A run that refutes *it always ends* goes on until nothing moves any more, so that all else that
 could happen has happened; most of it has no part in the wait.
 """
 

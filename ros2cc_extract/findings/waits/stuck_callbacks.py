@@ -172,7 +172,7 @@ def _shut_out_of(
 
 
 def _follows(thread: Activity) -> bool:
-    """Whether it begins when whoever starts it has ended."""
+    """Whether it begins when the code that starts it has ended."""
     return bool(thread.starts) and all(start.after is None for start in thread.starts)
 
 

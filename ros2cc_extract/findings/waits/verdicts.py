@@ -35,7 +35,7 @@ def refuting_run(family: str, context: Context, *callbacks: Doer) -> Evidence | 
 
 def is_of_repeated(callback: Doer, context: Context) -> bool:
     """
-    Tell whether the run that holds a callback up is one in which others overlap themselves.
+    Return whether the run that holds a callback up is one in which others overlap themselves.
 
     Whether so many of their runs come together is a matter of rates.
     """

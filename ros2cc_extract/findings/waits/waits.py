@@ -132,7 +132,7 @@ def waits_of(context: Context) -> Iterator[Wait]:
     """
     All waits of the callbacks somebody wrote, in the order of the unit.
 
-    A loop that steps an executor until a future is done is a nested spin for that future, told
+    A loop that steps an executor until a future is done is a nested spin for that future, reported
     where it steps.
     """
     for caller in context.written:

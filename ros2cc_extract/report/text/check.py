@@ -30,7 +30,7 @@ OF_ANOTHER_EXECUTOR = ('paper', 'starvation')
 @dataclass(frozen=True, kw_only=True)
 class Telling:
     """
-    How a check is told.
+    How a check is reported.
 
     :param paths: what was checked, as the user wrote it.
     :param seconds: how long it took; only a terminal gets it, so that logs stay the same.

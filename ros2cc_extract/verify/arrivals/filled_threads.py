@@ -78,7 +78,7 @@ def _arrivals(found: Found, closed: ClosedSpec) -> Mapping[str, int]:
 
 
 def _may_be_of(query: Query, arrivals: Mapping[str, int]) -> bool:
-    """Tell whether runs that fill the threads may refute it: who starves has none of its own."""
+    """Return whether runs that fill the threads may refute it: a starved one has no thread."""
     return query.family is not Family.STARVATION or not arrivals.keys() <= set(query.callbacks)
 
 

@@ -15,10 +15,10 @@ TWO_ARRIVALS = 2
 
 def needs_two_arrivals(query: Query, spec: Spec, profile: Profile) -> bool:
     """
-    Tell whether a callback may overlap itself as far as groups and threads go.
+    Return whether a callback may overlap itself as far as groups and threads go.
 
     With one arrival it runs once, and nothing could refute that it never does. A member of a
-    mutually exclusive group, and whoever runs on an only thread, cannot whatever arrives.
+    mutually exclusive group, and a callback on an only thread, never overlaps itself.
     """
     if profile is not Profile.RCLPY or query.family is not Family.SELF_OVERLAP:
         return False

@@ -1,7 +1,7 @@
 """
 Structural starvation: can others keep a callback from running forever, however fair threads are?
 
-Asked callback by callback, of a slice of the unit. Whoever starves in a slice starves in the
+Asked callback by callback, of a slice of the unit. What starves in a slice starves in the
 unit: there the others may just get no data. And the slice holds the rivals that matter
 (docs/profile-rclpy.md, *Slices*).
 """
@@ -95,7 +95,7 @@ def slice_for(callback: Callback, closed: ClosedSpec) -> ClosedSpec:
     """
     Keep a callback and its rivals: members of its group, the last served before it first.
 
-    Its waits are left out: whether whoever waits comes to an end is a question of its own.
+    Its waits are left out: whether a waiting callback comes to an end is a question of its own.
     """
     spec = closed.spec
     earlier = served_before(callback, spec)[::-1]

@@ -1,5 +1,5 @@
 """
-How busy those are that a callback has to wait for: starvation told by periods and durations.
+How busy those are that a callback has to wait for: starvation judged by periods and durations.
 
 The models know no times: they say whether somebody *may* be kept from running forever. Here the
 rates decide. Source of the rules: measured on rclpy 7.1.6 and 9.1.2 (docs/profile-rclpy.md,
@@ -99,7 +99,7 @@ class Load:
 
 def load_of(spec: Spec, callback: Callback, demands: Mapping[str, Demand] | None = None) -> Load:
     """
-    Tell what becomes of ``callback`` at the rates that ``spec`` states or a run has measured.
+    Return what becomes of ``callback`` at the rates that ``spec`` states or a run has measured.
 
     :param demands: of ``demands_of``, where several are asked for.
     """
@@ -128,7 +128,7 @@ def _contenders(spec: Spec, demands: Mapping[str, Demand]) -> int:
     With more of them than threads, members of one group wait in the queue together, and who is
     served later may be refused each time, below full load too (H. Teper et al., EMSOFT 2024; seen
     on rclpy 7.1.6: two threads, three groups, a member with 1 % of the work of the others never
-    ran). Which it is, only the times of all of them tell.
+    ran). Only the times of all of them show which it is.
     """
     exclusive = {g.name for g in spec.groups if g.type is GroupType.EXCLUSIVE}
     counted = _counted(spec)
@@ -216,7 +216,7 @@ def _refusals(callback: Callback) -> str | None:
 
 
 def _wanted(own: Demand, before: float) -> float:
-    """What it asks for; runs of a busy node tell how often it ran, not how often it should."""
+    """What it asks for; runs of a busy node show how often it ran, not how often it should."""
     if not own.is_known:
         return 1.0
     was_busy = own.is_rate_measured and before + own.load >= SATURATED_AS_MEASURED

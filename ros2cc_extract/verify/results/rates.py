@@ -130,7 +130,7 @@ def _duration_s(callback: Callback) -> tuple[float | None, bool]:
 
 
 def least_slept_s(blocking: Iterable[Blocking]) -> float:
-    """Seconds that a run sleeps whatever branches it takes."""
+    """Seconds that a run sleeps on every branch."""
     slept = [b for b in blocking if b.call in _PAUSES and not b.conditional]
     return sum(b.seconds * b.times for b in slept if isinstance(b.seconds, (int, float)))
 

@@ -183,7 +183,7 @@ def _refuted(
 def _in_spite_of_doubts(
     result: QueryResult, whatever: Answer, teller: RunTeller, spec: Spec
 ) -> QueryResult:
-    """A claim is proven only if it holds whatever is not known."""
+    """A claim is proven only if it holds for any value of what is not known."""
     if result.verdict is not Verdict.SATISFIED or whatever.verdict is Verdict.SATISFIED:
         return result
     if whatever.verdict is Verdict.UNDECIDED:
@@ -236,7 +236,7 @@ def ask_verifyta(
 
 @dataclass(frozen=True)
 class RunTeller:
-    """Tells the runs of one model."""
+    """Describes the runs of one model."""
 
     model: Model
     xml: bytes

@@ -99,7 +99,7 @@ def _asked(hunt: _Hunt, left: Iterable[Key]) -> list[Key]:
     """
     What is open of the callbacks of the part; the unit's deadlock follows from its own.
 
-    Whoever stays does not end; who starves does not run.
+    A callback that stays does not end; one that starves does not run.
     """
     members = {callback.name for callback in hunt.part.spec.callbacks}
     return [

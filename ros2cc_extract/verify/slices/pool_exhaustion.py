@@ -37,7 +37,7 @@ class Crowd:
     Callbacks that may take all threads while they wait.
 
     :param names: theirs, in the order in which they begin.
-    :param part: they, and whoever may end their waits, as a unit.
+    :param part: they, and the callbacks that may end their waits, as a unit.
     """
 
     names: tuple[str, ...]
@@ -101,7 +101,7 @@ def added(found: Found, part: Found) -> Found:
 
 
 def _crowds(slicer: Slicer, left: Iterable[Query]) -> Iterator[Crowd]:
-    """Crowds that may refute what is left: with whoever should end, without whoever starves."""
+    """Crowds that may refute what is left: they hold what should end, and not what starves."""
     queries = list(left)
     starving = _about(Family.STARVATION, queries)
     unfinished = _about(Family.PROGRESS, queries)
@@ -145,7 +145,7 @@ def _starving(
     """
     What the run of a crowd means for the unit.
 
-    All threads are taken forever: whatever arrives afterwards for anybody else starves.
+    All threads are taken forever: all that arrives afterwards for others starves.
     """
     taken = next((r for (family, *_), r in part.results.items() if family is _POOL), None)
     if taken is None or taken.verdict is not Verdict.NOT_SATISFIED:

@@ -1,7 +1,7 @@
 """
 Claims about runs, asked of units in which less is waited for.
 
-Whoever waits holds its thread and its group as one does that runs for long, and any run may be
+A callback that waits holds its thread and its group like one that runs long, and any run may be
 long. So a unit without some of the waits, and without locks, does all that the unit itself does
 as far as one can see who runs and which groups are closed: what never happens in it never happens.
 What may happen in it says nothing, unless the unit may do without these waits itself.
@@ -72,7 +72,7 @@ def loosened(closed: ClosedSpec) -> Iterator[Loosened]:
 
 def is_loose(query: Query, closed: ClosedSpec, max_cycle: int) -> bool:
     """
-    Tell whether a loosened unit may decide it of ``closed``.
+    Return whether a loosened unit may decide it of ``closed``.
 
     Whom several ask runs as often and may overlap itself, if its group lets it; unasked that takes
     two arrivals.

@@ -1,9 +1,9 @@
 """
 Proves that a callback ends by its waits, one at a time.
 
-Each wait needs others, and with all of them at once a slice may have too many states. Where nobody
-but the callback itself waits, and it runs once, whoever runs besides ends, and holds nothing for
-ever. So a run in which it stays in one of its waits is, without the others, a run of the callback
+Each wait needs others, and with all of them at once a slice may have too many states. Where only
+the callback itself waits, and it runs once, all others end, and hold nothing
+forever. So a run in which it stays in one of its waits is, without the others, one of the callback
 that has that wait alone: it may take as long before it as the others took. If it ends with each of
 its waits alone, it ends. Not where two waits share what ends one of them only. Its own thread and
 one that is free are enough: the others may run one after the other.

@@ -1,5 +1,5 @@
 """
-Asks slices: each shape of slice once, whatever its names.
+Ask slices: each shape of slice once, under any names.
 
 A small slice is asked all that can be asked of it, so that one reading of its model answers for
 every unit that has a slice of its shape.

@@ -54,7 +54,7 @@ class WaitRelations:
         return {actor.name: tuple(waits_of(actor, self.spec)) for actor in actors_of(self.spec)}
 
     def is_client(self, name: str) -> bool:
-        """Tell whether it is a client of the unit."""
+        """Return whether it is a client of the unit."""
         callback = self.by_name.get(name)
         return callback is not None and callback.type is CallbackType.CLT
 
@@ -121,6 +121,6 @@ def without_signals(steps: Iterable[NamedWait]) -> tuple[NamedWait, ...]:
     """
     Leave out signals.
 
-    A slice without whoever waits for a signal does not have it.
+    A slice without the callbacks that wait for a signal does not have it.
     """
     return tuple(step for step in steps if not step.is_signal)

@@ -128,7 +128,7 @@ def _started(units: Sequence[Spec], live: Sequence[Spec]) -> list[Spec]:
 
 
 def _is_of(unit: Spec, source: Path, scanned: Sequence[Spec]) -> bool:
-    """Tell whether a live unit is made in the files that were scanned, or is one of theirs."""
+    """Return whether a live unit is made in the files that were scanned, or is one of theirs."""
     from ros2cc_extract.compare.merge import match_units
     from ros2cc_extract.files import real_path
 

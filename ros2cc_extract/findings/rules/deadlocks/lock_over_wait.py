@@ -49,7 +49,7 @@ def _held(wait: Wait) -> Iterator[str]:
 
 
 def _stuck(caller: Callback, lock: str, context: Context) -> Iterator[tuple[str, Act]]:
-    """Whoever takes the lock and is known to wait for it forever, by name."""
+    """The callbacks that take the lock and are known to wait for it forever, by name."""
     for other in context.written:
         if other.node == caller.node and _waits_for_ever(other, caller, context):
             for act in other.locks:

@@ -86,7 +86,7 @@ def hits_of(
     """
     One finding for all that hang together.
 
-    :param concerns: whether it is to be told of those.
+    :param concerns: whether it is to be reported for those.
     """
     for together, stuck in unexplained(context):
         if concerns(together):

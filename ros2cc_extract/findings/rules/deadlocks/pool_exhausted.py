@@ -70,7 +70,7 @@ def _found(waits: Sequence[Wait], context: Context) -> Iterator[Hit]:
 
 def _is_of_endless_services(hit: Hit, waits: Sequence[Wait], context: Context) -> bool:
     """
-    Whether it tells of services that wait without a time-out, on a known number of threads.
+    Whether it is about services that wait without a time-out, on a known number of threads.
 
     Any client may ask while another one waits: what the model shows then is no matter of speed.
     """
@@ -85,7 +85,7 @@ def _found_looping(waits: Sequence[Wait], context: Context) -> Iterator[Hit]:
     """
     Loops that look again and again, and end otherwise too, take all the threads.
 
-    Only where their number is exact: whoever could end them runs when the first is over.
+    Only where their number is exact: what could end them runs when the first is over.
     """
     callers = {wait.caller.name: wait.caller for wait in waits}
     capacity = capacity_of(tuple(callers.values()), context)

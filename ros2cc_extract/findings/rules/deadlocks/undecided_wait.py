@@ -166,13 +166,13 @@ def _for_messages(context: Context) -> Iterator[AnyWait]:
     Waits for messages from another process: answers, and what nobody here can send meanwhile.
 
     Nobody says when a message is lost, or nobody listens. Where the model refutes the wait
-    anyhow, that is told.
+    anyhow, that is reported.
     """
     for caller in context.doers:
         if refuting_run(PROGRESS, context, caller) is None:
             for block in caller.blocking:
                 is_for_one = block.answer_to is not None or block.unsent is not None
-                if is_for_one and block.escapes is None:  # else it is told as undecided
+                if is_for_one and block.escapes is None:  # else it is reported as undecided
                     yield AnyWait(caller, block, kind_of(block))
 
 
@@ -265,7 +265,7 @@ def _cut_short(context: Context, told: Sequence[AnyWait]) -> Iterator[AnyWait]:
     """
     Waits of callbacks about whose end a limit of the checker has left the question open.
 
-    Or that end only by what nobody knows to come; where a wait is told already, claims about
+    Or that end only by what is not known to come; where a wait is reported already, claims about
     ends may be open for its reason.
     """
     callers = {wait.caller.name for wait in told}
@@ -312,7 +312,7 @@ def _of_set_up(context: Context) -> Iterator[AnyWait]:
     """
     Waits of code that no callback runs; what others outside end there is taken to end.
 
-    An await of a library's coroutine holds up nobody but its own coroutine, whatever it is called.
+    An await of a library's coroutine holds up only its own coroutine, under any name.
     """
     caller = _set_up(context)
     foreign = [block for block in context.unit.set_up if _is_foreign(block)]

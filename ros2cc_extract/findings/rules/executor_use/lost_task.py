@@ -1,4 +1,4 @@
-"""CC123: a coroutine that nobody awaits, or a task that nobody keeps; the extractor tells."""
+"""CC123: a coroutine that nobody awaits, or a task that nobody keeps; found by the extractor."""
 
 from __future__ import annotations
 

@@ -103,7 +103,7 @@ def _text_of(doer: Callback | Activity) -> str:
 def _told_of_others(
     context: Context, kinds: Container[RaceKind]
 ) -> Iterator[tuple[str, Place | str]]:
-    """Attributes with the place of the update that is told, and with who else is named there."""
+    """Attributes with the place of the reported update, and with what else is named there."""
     for race in races_of(context):
         if race.kind in kinds:
             for name in race.names:

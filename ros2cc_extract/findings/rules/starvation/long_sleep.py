@@ -103,7 +103,7 @@ def _is_long_wait(wait: Wait, context: Context) -> bool:
     """
     Whether it may last so long that a timer misses runs, though somebody else may end it.
 
-    What nobody can end meanwhile other rules tell.
+    What nothing can end meanwhile is reported by other rules.
     """
     is_timed = wait.block.call in _ANSWERED and bool(wait.needs)
     if not is_timed or wait.caller.entity is EntityKind.ACTION_EXECUTE:

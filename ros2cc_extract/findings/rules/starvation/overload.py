@@ -18,7 +18,7 @@ MOST_RUNS = 0.9
 
 
 def find(context: Context) -> Iterator[Hit]:
-    """One finding for those that together ask for too much; what others tell of them is enough."""
+    """One finding for those that together ask for too much, unless another rule reports them."""
     demands = demands_of(context.unit)
     victims: dict[tuple[str, ...], list[tuple[Callback, Load]]] = {}
     for callback in context.written:

@@ -12,7 +12,7 @@ from ros2cc_extract.spec.system.model import End, System
 
 
 def find(system: System) -> Iterator[Hit]:
-    """Not told where the launch itself, or something that is not in sight, may configure it."""
+    """Report nothing where the launch itself, or something unknown, may configure the node."""
     if not system.is_whole or system.changes_states:
         return
     for connection in system.connections:

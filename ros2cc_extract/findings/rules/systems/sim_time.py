@@ -14,7 +14,7 @@ _CLOCK = '/clock'
 
 
 def find(system: System) -> Iterator[Hit]:
-    """Not told where something that is not in sight may provide the time."""
+    """Report nothing where something unknown may provide the time."""
     if not system.is_whole or any(_gives_time(end.endpoint) for end in system.ends):
         return
     waiting = [process for process in system.processes if _is_simulated(process)]

@@ -1,7 +1,7 @@
 """
 How many requests at a time the clients of one program may have on their way to a service.
 
-Each client may have one, no matter what the others do; those that only wait for their answers have no
+Each client may have one, whatever the others do; those that only wait for answers have no
 more than their callers can wait at once. What no unit alone shows stands in the unit of the
 service.
 """

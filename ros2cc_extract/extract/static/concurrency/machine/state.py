@@ -40,7 +40,7 @@ class ActivityState(Doer):
     :param runners: the threads or futures that stand for it; who waits on one waits for its end.
     :param starts: who starts it.
     :param endless: its loop that nothing ends, the end of rclpy included.
-    :param again: where it starts itself anew in each run, whatever branches are taken.
+    :param again: where it starts itself anew in each run, on every branch.
     :param is_daemon: the same; ``None`` where that is not known.
     :param spins: how many spins the set-up has called before its start.
     :param ends_first: the set-up waits for its end before it spins again.
@@ -311,7 +311,7 @@ class ConcurrentWorld(World):
 
     @property
     def spins_begun(self) -> int:
-        """How often the program has let callbacks run, in whatever thread."""
+        """How often the program has let callbacks run, in any thread."""
         return 0
 
     @property

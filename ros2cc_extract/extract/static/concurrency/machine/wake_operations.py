@@ -93,9 +93,9 @@ class Waking:
     :param behind: the last wait of ``by`` before it, see ``EffectLog.behind``.
     :param spins: of the set-up, how many spins of its own thread are over, but for those of a loop
         in which it stands itself.
-    :param uncalled: in whose text, which nobody in sight calls, it stands.
-    :param is_counted: it happens once, whatever branches are taken.
-    :param in_loop: it stands in a loop of which nobody knows how often it goes round.
+    :param uncalled: the function without a known caller in whose text it stands.
+    :param is_counted: it happens once, on every branch.
+    :param in_loop: it stands in a loop with an unknown number of rounds.
     :param unless_done: branches skip it only where it has been done before.
     :param repeats: it stands in a loop.
     :param told: names of the data that ``by`` has written by then.

@@ -22,7 +22,7 @@ def awaits_each_round(loop: ast.While) -> bool:
 
 
 def _always_awaits(statements: Sequence[ast.stmt]) -> bool:
-    """Whether one of ``statements`` awaits whatever branches are taken inside of it."""
+    """Whether one of ``statements`` awaits on every branch inside of it."""
     return any(_awaits(_heads(each)) or _always_awaits(_bodies(each)) for each in statements)
 
 

@@ -208,7 +208,7 @@ class RosNotes(StandardBlocks, RosMachine):
         end_operations.note_raised(self, error, place)
 
     def note_call(self, function: Value, node: ast.Call, frame: Frame) -> None:
-        """``goal_handle.abort()`` of a goal that is not known: one that runs is told to stop."""
+        """``goal_handle.abort()`` of an unknown goal: it stops one that runs."""
         super().note_call(function, node, frame)
         effects, called = self.world.effects, node.func
         is_abort = isinstance(called, ast.Attribute) and called.attr == ABORTS

@@ -176,7 +176,7 @@ def _never_blocks(tree: ast.Module) -> bool:
 
 
 def _fork(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Parent and child go on with the same text, the child with whatever others have locked."""
+    """Parent and child go on with the same text, the child with all that others have locked."""
     machine.world.forked = machine.world.forked or call.place
     return machine.mystery('which of two processes goes on', call.place, 'os.fork()')
 

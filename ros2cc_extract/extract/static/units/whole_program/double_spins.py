@@ -3,7 +3,7 @@ One executor that is spun at two places at the same time: by two threads, or by 
 
 Sources: rclpy 7.1.6 and 9.1.2, ``executors.py`` (``wait_for_ready_callbacks`` goes on with one
 generator while its arguments stay the same), ``__init__.py`` (``rclpy.spin…`` without an executor
-spins the global one, whatever the node). Measured on both: with equal time-outs one of the two
+spins the global one for every node). Measured on both: with equal time-outs one of the two
 ends by ``ValueError: generator already executing``; with others each waits for itself, now and
 then with an ``IndexError``. Newer releases refuse (ros2/rclpy pull request 1510).
 ``EventsExecutor`` is no such executor.

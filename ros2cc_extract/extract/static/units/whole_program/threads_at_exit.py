@@ -1,8 +1,8 @@
 """
 Threads that keep the program when ``main`` is over, as nobody ends what they wait for.
 
-The interpreter waits at its end for each thread that is no daemon, and for the threads of pools
-whatever they are (CPython 3.12, ``threading.py``, ``_shutdown``; ``concurrent/futures/thread.py``,
+The interpreter waits at its end for each thread that is no daemon, and for all threads of pools
+(CPython 3.12, ``threading.py``, ``_shutdown``; ``concurrent/futures/thread.py``,
 ``_python_exit``): it is as if ``main`` joined them. Measured with rclpy 7.1.6: a program whose
 thread stands in ``Queue.get`` outlives Ctrl-C.
 """

@@ -378,7 +378,7 @@ class RosWorld(ConcurrentWorld):
 
     @property
     def spins_begun(self) -> int:
-        """How many spins there were, in whatever thread."""
+        """How many spins there were, in any thread."""
         return len(self.spins)
 
     @property

@@ -42,7 +42,7 @@ TOPIC = '/clock'
 def start_sim_time(
     machine: RosMachine, node: Instance, parameters: Iterable[Value], place: Place
 ) -> EntityState | None:
-    """The subscription of a node that is told to use simulated time."""
+    """The subscription of a node that is set to use simulated time."""
     state = node.state
     if not isinstance(state, NodeState) or state.sim_clock is not None:
         return None

@@ -112,7 +112,7 @@ def _name_of(key: Value | None) -> object:
 
 
 def _code_of(value: Value | None) -> object:
-    """Equal for functions of one text on one object, whatever else they were given."""
+    """Return a key that is equal for functions of one text on one object, with any arguments."""
     if isinstance(value, Partial):
         return _code_of(value.function)
     if isinstance(value, Bound):
