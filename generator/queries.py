@@ -91,7 +91,7 @@ def rclpy_queries(unit: Unit) -> tuple[Query, ...]:
         Query(
             family=Family.DEADLOCK,
             formula=f'A[] (deadlock imply cb_all_served(){_none_blocked(unit)})',
-            words='there is no deadlock: whatever arrives can be served',
+            words='there is no deadlock: all that arrives can be served',
         ),
         *_occupation_queries(unit),
         *(_starvation_of_data(callback) for callback in unit.callbacks),
@@ -158,7 +158,7 @@ def with_doubts(queries: tuple[Query, ...]) -> Iterator[Query]:
     for query in queries:
         yield query
         if query.whatever is not None:
-            words = f'{query.words}; whatever is not known'
+            words = f'{query.words}, for all values of what is not known'
             yield replace(query, formula=query.whatever, words=words)
 
 

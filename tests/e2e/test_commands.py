@@ -271,7 +271,7 @@ def test_a_launch_file_that_starts_nothing_in_sight_is_undecided(run: Run, tmp_p
     (tmp_path / 'robot.launch.py').write_text('def main():\n    return 1\n')
     outcome = run('robot.launch.py')
     assert outcome.status == 3
-    assert outcome.err == 'nothing to check: the launch file starts no process in sight\n'
+    assert outcome.err == 'nothing to check: the launch file starts no known process\n'
     assert 'not followed: no function generate_launch_description is in sight' in outcome.out
 
 

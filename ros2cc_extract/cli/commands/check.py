@@ -322,8 +322,8 @@ def _tell_nothing_judged(args: argparse.Namespace, outcome: Outcome, stderr: Tex
         print('nothing to check: no rclpy node with a callback found', file=stderr)
         return status
     number = len(outcome.system.processes)
-    told = f'of {number} processes none has a callback in sight'
-    told = told if number else 'the launch file starts no process in sight'
+    told = f'none of {number} processes has a known callback'
+    told = told if number else 'the launch file starts no known process'
     print(f'nothing to check: {told}', file=stderr)
     return EXIT_UNDECIDED if status == EXIT_CLEAN else status
 

@@ -20,7 +20,7 @@ EPILOG = """\
 PATH is a launch file (Python, XML or YAML; several are one system), a folder of code (one system
 for each launch file in it, or one of all its programs), a folder of recordings as `env` and
 `collect` have it, or a system specification. --running is what runs now, by the ROS graph.
-Of several of these the facts are joined, and what one of them has and another has not is told on
+The facts of several of these are joined, and what one has and another lacks is reported on
 standard error.
 """
 

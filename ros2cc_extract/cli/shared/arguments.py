@@ -79,7 +79,7 @@ def add_unit_arguments(parser: argparse.ArgumentParser, *, ranges: bool = False)
         '--threads',
         type=_range if ranges else _single,
         metavar='N|A..B' if ranges else 'N',
-        help='number of executor threads, whatever the source says'
+        help='number of executor threads, instead of that in the source'
         + ('; a range gives one table for all' if ranges else ''),
     )
     parser.add_argument(

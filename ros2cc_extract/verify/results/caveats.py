@@ -48,7 +48,7 @@ def _threads_of_no_use(unit: Spec, profile: Profile) -> Iterator[str]:
         return
     if profile is Profile.RCLPY:
         yield (
-            f'{executor.kind} runs callbacks on one thread, whatever number is asked; to try a '
+            f'{executor.kind} runs callbacks on one thread, for any number given; to try a '
             'pool, write kind: MultiThreadedExecutor into the specification'
         )
     else:

@@ -106,7 +106,7 @@ RULE = Rule(
     why='The waitable of the action server takes the cancel request; the executor must run it, '
     'and its only thread executes the goal. A coroutine that yields between its sleeps (`await '
     'asyncio.sleep(0)`, or a bare `yield` behind an `__await__`) lets it run. With two threads '
-    'the cancel request arrives at once, whatever groups are used, because execute runs as a '
+    'the cancel request arrives at once, with any groups, because execute runs as a '
     'task outside them; the goal, cancel and accepted callbacks of a server run in its group, '
     'one after the other. Sources: rclpy 7.1.6 and 9.1.2, `action/server.py` (`notify_execute`), '
     '`executors.py`.',

@@ -91,7 +91,7 @@ RULE = Rule(
     title='A name that nobody offers, and nearly the same one that nobody wants',
     what='In the system of a launch file a service, action or topic is wanted by one node and '
     'offered by none, while another node offers one that nobody wants and whose name differs by '
-    'the namespace, a slash, a `~`, upper and lower case, or one letter. Whoever waits for it '
+    'the namespace, a slash, a `~`, upper and lower case, or one letter. Code that waits for it '
     'waits in vain. A note where code of the system, or a name in it, is not in sight.',
     why='Names are expanded with the namespace and the name of their node and then remapped; '
     'endpoints are connected only where the result is the same. Source: design.ros2.org, '

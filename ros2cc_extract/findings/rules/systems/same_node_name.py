@@ -50,8 +50,8 @@ RULE = Rule(
     slug='same-node-name',
     severity=Severity.WARNING,
     title='Two nodes with one name',
-    what='Two nodes of the system have the same fully qualified name. Not told of processes that '
-    'a condition may leave out.',
+    what='Two nodes of the system have the same fully qualified name. Not '
+    'reported for processes that a condition may leave out.',
     why='Node names must be unique: parameters, life-cycle services and tools find a node by its '
     'name, and reach one of the two. A name in a launch file is given to every node of the '
     'process. Source: design.ros2.org, "ROS 2 Node naming"; launch_ros (Jazzy), '

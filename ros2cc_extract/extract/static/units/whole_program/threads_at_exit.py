@@ -131,7 +131,7 @@ def _goes_on(state: ActivityState, again: Place) -> Diagnostic:
         place=again,
         message='this timer thread is not a daemon and restarts itself in each run, and a cancel '
         'while its function runs has no effect: the program may never exit',
-        help='ask before, under a lock, for a flag that whoever stops it changes under that lock; '
+        help='before the restart, test a stop flag under a lock, and set it under that lock; '
         'or start it as a daemon',
     )
 
