@@ -38,8 +38,8 @@ def goes_by_wakers(block: Blocking, spec: Spec) -> bool:
 
     An answer comes from the client that is asked, even if others are named.
     """
-    is_told = block.resource is not None or block.wakers or block.escapes is not None
-    if not is_told or is_foreign(block, spec):
+    is_named = block.resource is not None or block.wakers or block.escapes is not None
+    if not is_named or is_foreign(block, spec):
         return False
     asked = _by_name(spec).get(block.on) if isinstance(block.on, str) else None
     is_client = asked is not None and asked.type is CallbackType.CLT
@@ -209,7 +209,7 @@ def _signals(spec: Spec) -> Mapping[str, Sequence[tuple[Resource, Waker]]]:
         for waker in activity.starts:
             if start is not None:
                 found.setdefault(waker.by, []).append((start, waker))
-    told: dict[object, tuple[list[tuple[Resource, Waker]], int]] = {}
+    ordered: dict[object, tuple[list[tuple[Resource, Waker]], int]] = {}
     for waiting in all_actors(spec):
         for block in waiting.blocking:
             is_spin = isinstance(waiting, Callback) and is_part_of_spin(block, waiting)
@@ -219,13 +219,13 @@ def _signals(spec: Spec) -> Mapping[str, Sequence[tuple[Resource, Waker]]]:
             for resource, wakers in _resources_of(block, waiting, spec):
                 for waker in wakers:
                     key = (waker.by, resource, waker.after, waker.source, waker.held)
-                    if key not in told:
+                    if key not in ordered:
                         own = found.setdefault(waker.by, [])
-                        told[key] = own, len(own)
+                        ordered[key] = own, len(own)
                         own.append((resource, waker))
                     elif waker.conditional:
                         # It may be kept from the one wait and not from the other.
-                        own, place = told[key]
+                        own, place = ordered[key]
                         own[place] = resource, waker
     return found
 

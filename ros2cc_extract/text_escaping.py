@@ -127,15 +127,15 @@ class Shown:
         self._in_log = in_log or by_lines
 
     def write(self, text: str) -> int:
-        told = text if text == '\n' else self._told(text)
-        self.raw.write(without_commands(told) if self._in_log else told)
+        cleaned = text if text == '\n' else self._cleaned(text)
+        self.raw.write(without_commands(cleaned) if self._in_log else cleaned)
         return len(text)
 
     def writelines(self, parts: Iterable[str]) -> None:
         for part in parts:
             self.write(part)
 
-    def _told(self, text: str) -> str:
+    def _cleaned(self, text: str) -> str:
         if self._by_lines:
             end = '\n' if text.endswith('\n') else ''
             return one_line(text.removesuffix('\n')) + end

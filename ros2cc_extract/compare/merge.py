@@ -325,8 +325,8 @@ def _is_default(executor: Executor) -> bool:
 
 def _diff_facts(unit: str, mine: Callback, theirs: Callback) -> Iterator[Difference]:
     # A live run does not show whose answer a done-callback has.
-    is_untold = mine.entity is EntityKind.DONE_CALLBACK and theirs.key is None
-    key = mine.key if is_untold else theirs.key
+    is_unreported = mine.entity is EntityKind.DONE_CALLBACK and theirs.key is None
+    key = mine.key if is_unreported else theirs.key
     for fact, a, b in (
         (mine.entity.key_name if mine.entity else None, mine.key, key),
         ('period_s', mine.period_s, theirs.period_s),

@@ -47,22 +47,22 @@ def with_arrivals(
     """
     begins = [each for each in seen if each.act is Act.BEGIN]
     places = {callback.name: place for place, callback in enumerate(spec.callbacks)}
-    told = list(_told(arrivals, places, begins))
-    known = {each.callback for each in told}
-    served = list(_paired(told, begins))
+    reported = list(_reported(arrivals, places, begins))
+    known = {each.callback for each in reported}
+    served = list(_paired(reported, begins))
     hidden = (
         _hidden(begin, served[number:])
         for number, begin in enumerate(begins)
         if begin.callback not in known
     )
     rows = [replace(each, has_arrived=each.act is Act.BEGIN) for each in seen]
-    return tuple(sorted((*hidden, *told, *rows), key=_clock))
+    return tuple(sorted((*hidden, *reported, *rows), key=_clock))
 
 
 _clock = attrgetter('clock_ns')
 
 
-def _told(
+def _reported(
     arrivals: Sequence[Arrival], places: Mapping[str, int], begins: Sequence[Observation]
 ) -> Iterator[Observation]:
     """
@@ -91,10 +91,10 @@ def _told(
 
 
 def _paired(
-    told: Sequence[Observation], begins: Sequence[Observation]
+    reported: Sequence[Observation], begins: Sequence[Observation]
 ) -> Iterator[Observation | None]:
     """Pair each begin with its arrival, if reported: the first is served first. Then the rest."""
-    left = _queues((each.callback, each) for each in told)
+    left = _queues((each.callback, each) for each in reported)
     for begin in begins:
         yield left[begin.callback].popleft() if left[begin.callback] else None
     for never_served in left.values():

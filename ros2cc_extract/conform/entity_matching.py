@@ -191,14 +191,14 @@ class _Copies:
         rows = [(self._numbers.get(p), c) for p, c in enumerate(self._spec.callbacks)]
         for copy in self._copies:
             before = (at for at, (number, _) in enumerate(rows) if number and number < copy.number)
-            rows.insert(max(before, default=copy.place) + 1, (copy.number, self._told(copy)))
+            rows.insert(max(before, default=copy.place) + 1, (copy.number, self._relinked(copy)))
         return replace(
             self._spec,
             callbacks=tuple(replace(callback, count=1) for _, callback in rows),
             groups=tuple(self._groups.values()),
         )
 
-    def _told(self, copy: _Copy) -> Callback:
+    def _relinked(self, copy: _Copy) -> Callback:
         """What a copy waits for is what the same lap has made, where that was copied too."""
         names = {
             self._spec.callbacks[other.place].name: other.callback.name

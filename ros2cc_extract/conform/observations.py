@@ -15,7 +15,7 @@ from ros2cc_extract.spec.model import EntityKind, GroupType, Spec
 #: may have slept in between (89 ms were seen on a machine with eight times its load).
 ASLEEP_NS = 20_000_000
 #: Until this time before its end a trace reports all that was made.
-UNTOLD_NS = 200_000_000
+UNREPORTED_NS = 200_000_000
 
 
 class Act(Enum):
@@ -174,7 +174,7 @@ def _with_takes(rows: Iterator[Observation]) -> Iterator[Observation]:
     yield from kept
 
 
-def with_untold_tasks(seen: Sequence[Observation], spec: Spec) -> tuple[Observation, ...]:
+def with_unreported_tasks(seen: Sequence[Observation], spec: Spec) -> tuple[Observation, ...]:
     """
     Add tasks that have run, if the trace ends before it reports that they were made.
 
@@ -190,7 +190,7 @@ def with_untold_tasks(seen: Sequence[Observation], spec: Spec) -> tuple[Observat
             callback=place,
             thread=-1,
             clock_ns=end_ns,
-            earliest_ns=end_ns - UNTOLD_NS,
+            earliest_ns=end_ns - UNREPORTED_NS,
             is_task=True,
         )
         for place, callback in enumerate(spec.callbacks)

@@ -17,7 +17,7 @@ from ros2cc_extract.conform.observations import (
     Observation,
     observe,
     with_groups,
-    with_untold_tasks,
+    with_unreported_tasks,
 )
 from ros2cc_extract.conform.search import PASSED, STATES, Answer, conform
 from ros2cc_extract.conform.trace import Trace
@@ -100,7 +100,7 @@ def compare(
     if until_ns is not None:
         seen = tuple(each for each in seen if _is_before(each, until_ns))
     else:
-        seen = with_untold_tasks(seen, unit.spec)
+        seen = with_unreported_tasks(seen, unit.spec)
     text = edit(text_of(unit, seen))
     model = ObservedModel(
         read_model(text, f'{unit.spec.name}.xml'),

@@ -78,8 +78,8 @@ def _awaiting(seen: Sequence[Observation], spec: Spec) -> Iterator[str]:
     times = Counter((each.callback, each.act) for each in seen if each.is_task)
     for place, callback in enumerate(spec.callbacks):
         went_on = times[place, Act.BEGIN] > times[place, Act.ARRIVE] > 0
-        is_told = any(wait.frees_thread for wait in waits_of(callback, spec))
-        if (place in paused or went_on) and not is_told:
+        is_reported = any(wait.frees_thread for wait in waits_of(callback, spec))
+        if (place in paused or went_on) and not is_reported:
             yield callback.name
 
 

@@ -28,7 +28,7 @@ _ENDS = frozenset(
     {'KeyboardInterrupt', 'SystemExit', 'ExternalShutdownException', 'GeneratorExit'}
 )
 # Time is no wait; and whether somebody outside answers is not for the program to decide.
-_UNTOLD = (Wait.NOTHING, Wait.SLEEP, Wait.WORK, Wait.ANSWER, Wait.ACTION, Wait.SERVER)
+_UNREPORTED = (Wait.NOTHING, Wait.SLEEP, Wait.WORK, Wait.ANSWER, Wait.ACTION, Wait.SERVER)
 
 
 class Kind(Enum):
@@ -81,20 +81,20 @@ def hang(samples: Sequence[Sample]) -> Failure | None:
 
 def _hang(before: Explanation, after: Explanation, seconds: float) -> Failure | None:
     stuck = stand_in_both(before, after, lambda each: not each.can_end and not each.moved)
-    told = as_text((after,))
+    page = as_text((after,))
     if stuck:
         first = min(stuck, key=lambda each: (not each.in_callback, each.activity.place.at_line))
         words = f'{_who(first)} {does(first, after.look)}, and nothing is left that could end it'
-        return _at(first, Kind.HANG, words, told)
+        return _at(first, Kind.HANG, words, page)
     crossed = _at_locks(before, after)
     if crossed:
         lines = ' and '.join(str(each.activity.place.line) for each in crossed)
         words = f'every callback at work waits for a lock, at lines {lines}, for {seconds:.0f} s'
-        return _at(crossed[0], Kind.HANG, words, told)
+        return _at(crossed[0], Kind.HANG, words, page)
     for verdict in (Verdict.NEVER_SPUN, Verdict.ASLEEP):
         if before.verdict is after.verdict is verdict and after.standings:
             asleep = [each for each in after.standings if each.asleep] or list(after.standings)
-            return _at(asleep[0], Kind.HANG, MEANS[verdict], told)
+            return _at(asleep[0], Kind.HANG, MEANS[verdict], page)
     return None
 
 
@@ -119,8 +119,8 @@ def stands(samples: Sequence[Sample]) -> Failure | None:
     first, last = samples[0], samples[-1]
 
     def is_meant(each: Standing) -> bool:
-        told = each.wait.kind not in _UNTOLD and not each.wait.timed
-        return each.in_callback and told and not each.moved
+        is_counted = each.wait.kind not in _UNREPORTED and not each.wait.timed
+        return each.in_callback and is_counted and not each.moved
 
     for each in stand_in_both(first.explanation, last.explanation, is_meant):
         seconds = last.at - first.at

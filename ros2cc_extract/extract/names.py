@@ -47,13 +47,13 @@ def unique_names(wanted: Sequence[Wanted], taken: Names) -> list[str]:
     names = {indices[0]: taken.take(name) for name, indices in members.items() if name in alone}
     for name, indices in members.items():
         if name not in alone:
-            candidates = _tell_apart(wanted, indices, taken)
+            candidates = _distinguished(wanted, indices, taken)
             for index, candidate in zip(indices, candidates, strict=True):
                 names[index] = taken.take(candidate)
     return [names[index] for index in range(len(wanted))]
 
 
-def _tell_apart(wanted: Sequence[Wanted], members: list[int], taken: Names) -> list[str]:
+def _distinguished(wanted: Sequence[Wanted], members: list[int], taken: Names) -> list[str]:
     entries = [wanted[index] for index in members]
     for parts in (('key',), ('node',), ('node', 'key')):
         names = [_prefixed(entry, parts) for entry in entries]

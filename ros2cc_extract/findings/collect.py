@@ -60,8 +60,8 @@ def all_findings(
         ),
         *(finding for findings in by_unit for finding in findings),
     ]
-    told = {(finding.place, finding.message) for finding in found if finding.unit is None}
-    by_identity = {_identity(f): f for f in found if not _is_told(f, told)}
+    reported = {(finding.place, finding.message) for finding in found if finding.unit is None}
+    by_identity = {_identity(f): f for f in found if not _is_reported(f, reported)}
     alike: dict[tuple[object, ...], list[Finding]] = {}
     for identity in sorted(by_identity):
         finding = by_identity[identity]
@@ -73,16 +73,16 @@ def all_findings(
 
 def _without_what_is_decided(findings: Sequence[Finding]) -> Iterator[Finding]:
     """A wait is open only where no other rule, and no other unit, says more of its line."""
-    told = {_line(f) for f in findings if f.code[:3] in _OF_WAITS and f.code not in OPEN_WAITS}
+    reported = {_line(f) for f in findings if f.code[:3] in _OF_WAITS and f.code not in OPEN_WAITS}
     for finding in findings:
-        if finding.code not in OPEN_WAITS or _line(finding) not in told:
+        if finding.code not in OPEN_WAITS or _line(finding) not in reported:
             yield finding
 
 
-def _is_told(finding: Finding, told: Collection[tuple[Place, str]]) -> bool:
+def _is_reported(finding: Finding, reported: Collection[tuple[Place, str]]) -> bool:
     """Whether the scan itself has reported at this place why something is missing."""
     reason = finding.cause or finding.message.partition(': unit ')[0]
-    return reason != finding.message and (finding.place, reason) in told
+    return reason != finding.message and (finding.place, reason) in reported
 
 
 def _as_one(findings: Sequence[Finding]) -> Finding:

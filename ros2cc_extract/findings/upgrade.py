@@ -287,6 +287,6 @@ def _behaves(row: Behaviour, felt: Felt, unit: Spec, old: str, new: str) -> Chan
         turn=Turn.BEHAVES,
         place=felt.place or Place(unit.name),
         code='',
-        message=f'{row.concerns}{only}: before, {row.told(old)}; then, {row.told(new)}',
+        message=f'{row.concerns}{only}: before, {row.words_for(old)}; then, {row.words_for(new)}',
         because=(row,),
     )

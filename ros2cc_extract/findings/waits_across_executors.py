@@ -65,16 +65,16 @@ def _is_across(doer: Doer, hit: Hit, joined: Joined) -> bool:
     return joined.executors_of((doer.name, *enders)) > 1
 
 
-def without_what_is_told(found: Iterable[Finding], told: Iterable[Finding]) -> tuple[Finding, ...]:
+def without_reported(found: Iterable[Finding], reported: Iterable[Finding]) -> tuple[Finding, ...]:
     """
     Leave out what a unit alone shows: a circle with a wait of which that says more.
 
     A note only says what may happen to the wait, and no more than the circle.
     """
-    told = tuple(told)
-    of_waits = (each for each in told if each.code[:3] == 'CC1' and each.code not in _OPEN)
+    reported = tuple(reported)
+    of_waits = (each for each in reported if each.code[:3] == 'CC1' and each.code not in _OPEN)
     waits = {_line(each) for each in of_waits if each.severity is not Severity.NOTE}
-    lines = {_line(each) for each in told}
+    lines = {_line(each) for each in reported}
     return tuple(
         each
         for each in found

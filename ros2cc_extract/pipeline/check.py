@@ -25,7 +25,7 @@ from ros2cc_extract.findings.races_across_executors import findings_across
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
 from ros2cc_extract.findings.system_findings import findings_of_system
-from ros2cc_extract.findings.waits_across_executors import without_what_is_told
+from ros2cc_extract.findings.waits_across_executors import without_reported
 from ros2cc_extract.jobs.pools import Pool
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.pipeline.config import Config
@@ -256,7 +256,7 @@ def _findings(
 ) -> tuple[Finding, ...]:
     """All findings: of the scan, of each unit, of several units, and of what is demanded."""
     own = [each.findings for each in examined]
-    across = without_what_is_told(
+    across = without_reported(
         (finding for each in together for finding in each.findings),
         (finding for found in own for finding in found),
     )

@@ -67,12 +67,12 @@ def read_shards(paths: Sequence[Path]) -> dict[str, Examined]:
         found.update(units)
     counts = {shard.of for shard in shards}
     if len(counts) > 1:
-        told = ' and '.join(map(str, sorted(counts)))
-        raise InputError(f'some are of {told} shards', None, _SAME)
+        words = ' and '.join(map(str, sorted(counts)))
+        raise InputError(f'some are of {words} shards', None, _SAME)
     missing = sorted(set(range(1, max(counts) + 1)) - {shard.number for shard in shards})
     if missing:
-        told = ', '.join(f'{number}/{max(counts)}' for number in missing)
-        raise InputError(f'there is no result of shard {told}', None, 'name the files of all')
+        words = ', '.join(f'{number}/{max(counts)}' for number in missing)
+        raise InputError(f'there is no result of shard {words}', None, 'name the files of all')
     return found
 
 

@@ -95,8 +95,8 @@ def _cache_folder(stderr: TextIO) -> Path | None:
     folder = default_cache_folder()
     others = who_can_change(folder) if folder is not None else None
     if others is not None:
-        told = f'{folder}: not used as a cache, as other users can change {others}'
-        print(f'{told}; let XDG_CACHE_HOME name a folder that is yours alone', file=stderr)
+        words = f'{folder}: not used as a cache, as other users can change {others}'
+        print(f'{words}; let XDG_CACHE_HOME name a folder that is yours alone', file=stderr)
         return None
     return folder
 

@@ -71,7 +71,7 @@ def scan_system(
     builder = _Builder(scan, root, kept.scans)
     processes = [p for each in launches for p in builder.processes(each)]
     noticed = tuple(d for each in launches for d in each.noticed)
-    outside = tuple(_told(p) for p in processes if p.outside is not None)
+    outside = tuple(_diagnostic(p) for p in processes if p.outside is not None)
     sources = tuple(dict.fromkeys(file for each in launches for file in each.files))
     system = System(
         name=', '.join(shown_name(path.name) for path in files_of_launch),
@@ -157,8 +157,8 @@ class _Builder:
         file = next((w for w in reversed(launched.command) if w.endswith('.py')), '')
         words = file or ''.join(launched.command[:1])
         facts = (launched.name, launched.executable, words)
-        told = next((fact for fact in facts if isinstance(fact, str) and fact), launched.kind)
-        name = (told.rpartition('/')[2] or told).removesuffix('.py')
+        given = next((fact for fact in facts if isinstance(fact, str) and fact), launched.kind)
+        name = (given.rpartition('/')[2] or given).removesuffix('.py')
         number = self._names[name] = self._names.get(name, 0) + 1
         return name if number == 1 else f'{name}_{number}'
 
@@ -170,10 +170,10 @@ class _Builder:
 
 def as_one(found: Sequence[Extraction]) -> Extraction:
     """Several scans as one; what several of them found stands in it once."""
-    told = dict.fromkeys(d for each in found for d in each.diagnostics)
+    reported = dict.fromkeys(d for each in found for d in each.diagnostics)
     return Extraction(
         units=tuple(dict.fromkeys(unit for each in found for unit in each.units)),
-        diagnostics=tuple(sorted(told, key=lambda d: (d.place, d.slug, d.message))),
+        diagnostics=tuple(sorted(reported, key=lambda d: (d.place, d.slug, d.message))),
         files_seen=tuple(dict.fromkeys(file for each in found for file in each.files_seen)),
         joined=tuple(dict.fromkeys(each for e in found for each in e.joined)),
         wholes=tuple(dict.fromkeys(each for e in found for each in e.wholes)),
@@ -264,7 +264,7 @@ def _named(graphs: Sequence[NodeGraph]) -> list[NodeGraph]:
     return known or list(graphs)
 
 
-def _told(process: Process) -> Diagnostic:
+def _diagnostic(process: Process) -> Diagnostic:
     why = process.outside
     assert why is not None
     return Diagnostic(

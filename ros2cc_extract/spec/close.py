@@ -84,8 +84,12 @@ def close(spec: Spec, policy: Policy = Policy()) -> ClosedSpec:  # noqa: B008 - 
     reduced = _with_tasks_in_no_group(reduced)
     used = {callback.group for callback in reduced.callbacks}
     reduced = replace(reduced, groups=tuple(g for g in reduced.groups if g.name in used))
-    told = (*_assumptions(reduced, policy), *_moved_tasks(reduced, spec), *_empty_groups(spec))
-    return ClosedSpec(spec=reduced, assumptions=told)
+    all_assumptions = (
+        *_assumptions(reduced, policy),
+        *_moved_tasks(reduced, spec),
+        *_empty_groups(spec),
+    )
+    return ClosedSpec(spec=reduced, assumptions=all_assumptions)
 
 
 def _empty_groups(spec: Spec) -> list[str]:

@@ -23,7 +23,7 @@ from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.results.results import QueryResult, Verification, verification_of
 from ros2cc_extract.verify.results.run_evidence import Names
 from ros2cc_extract.verify.search.model_search import (
-    RunTeller,
+    RunDescriber,
     also_begun,
     ask_verifyta,
     check_queries,
@@ -135,9 +135,9 @@ def _asked(
     names: Names,
 ) -> Verification:
     result = check_queries(model, xml, queries, options, progress)
-    teller = RunTeller(model, xml, names)
+    describer = RunDescriber(model, xml, names)
     results = tuple(
-        result_of(answer, teller, None, answer.query.comment or answer.query.formula, ())
+        result_of(answer, describer, None, answer.query.comment or answer.query.formula, ())
         for answer in result.answers
     )
     return verification_of(model.name, result, results)

@@ -125,8 +125,8 @@ def _verify(task: tuple[Spec, Policy, Options]) -> Verification:
     unit, policy, options = task
     verification = verify_unit(close(unit, policy), options)
     # Runs are found out in this process, for the sake of those that another one waits for.
-    told = tuple(replace(result, run=result.evidence) for result in verification.results)
-    return replace(verification, results=told)
+    with_runs = tuple(replace(result, run=result.evidence) for result in verification.results)
+    return replace(verification, results=with_runs)
 
 
 def _turns(point: Point, before: Verification, after: Verification) -> Iterable[Turn]:

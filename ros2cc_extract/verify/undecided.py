@@ -36,8 +36,8 @@ def failed_unit(closed: ClosedSpec, options: Options, error: Exception) -> Verif
 
     The model was made here, of a unit without holes, so nobody else can mend it.
     """
-    told = ' '.join(str(error).split())[:LONGEST_MESSAGE]
-    defect = f'{type(error).__name__}: {told}'
+    message = ' '.join(str(error).split())[:LONGEST_MESSAGE]
+    defect = f'{type(error).__name__}: {message}'
     queries: tuple[Query, ...] = ()
     with contextlib.suppress(Exception):  # wrong queries are not shown; the defect is reported
         queries = _queries(closed, options)

@@ -55,10 +55,10 @@ def _is_one_bracket(rest: str) -> bool:
 
 
 def with_twins(
-    queries: Sequence[Query], told: Sequence[Answer], twins: dict[int, int]
+    queries: Sequence[Query], reported: Sequence[Answer], twins: dict[int, int]
 ) -> tuple[Answer, ...]:
     """Put the answers of queries that were not searched for between those that were."""
-    rest = iter(told)
+    rest = iter(reported)
     answers: list[Answer] = []
     for number, query in enumerate(queries):
         if number not in twins:

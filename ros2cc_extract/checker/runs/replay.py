@@ -72,7 +72,7 @@ class Replayer:
         if path.cycle_start is not None:
             self._go_round(walk, (*path.states[stem + 1 :], path.states[stem]), reduce)
         self._check_formulas(prop, walk.real)
-        return self._told(walk.real)
+        return self._run_of(walk.real)
 
     def _successors(self, state: State) -> list[Transition]:
         # The paths of one search share most of their beginnings.
@@ -177,7 +177,7 @@ class Replayer:
         raise _mismatch('it does not end as a maximal path')
 
     # -- names ---------------------------------------------------------------------------
-    def _told(self, real: _RealPath) -> Run:
+    def _run_of(self, real: _RealPath) -> Run:
         steps = tuple(
             self._step(state, move) for state, move in zip(real.states, real.moves, strict=False)
         )

@@ -8,9 +8,9 @@ from typing import TextIO
 from ros2cc_extract.spec.releases.lines import judged_as
 
 
-def tell_releases(releases: Iterable[str | None], stderr: TextIO) -> None:
+def report_releases(releases: Iterable[str | None], stderr: TextIO) -> None:
     """Say what each of them is judged as, once."""
     for release in dict.fromkeys(filter(None, releases)):
-        told = judged_as(release)
-        if told is not None:
-            print(told, file=stderr)
+        words = judged_as(release)
+        if words is not None:
+            print(words, file=stderr)

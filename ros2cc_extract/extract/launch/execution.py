@@ -233,8 +233,8 @@ class Execution:
 
 def _cost_of(launched: Launched) -> int:
     """What comes after grows with it: each node has what rclpy makes, under names of its own."""
-    told = (launched.name, launched.namespace, *launched.remaps, *launched.command)
-    letters = sum(len(str(each)) for each in told if each is not None)
+    texts = (launched.name, launched.namespace, *launched.remaps, *launched.command)
+    letters = sum(len(str(each)) for each in texts if each is not None)
     facts = len(launched.remaps) + len(launched.parameters)
     return _COST_OF_PROCESS + _COST_OF_FACT * facts + letters // _LETTERS_FOR_ONE
 

@@ -155,8 +155,8 @@ def inject(pid: int, script: Path, ways: Sequence[Injector]) -> None:
         else:
             return
     # Some messages are whole pages.
-    told = '; '.join(f'{name}: {" ".join(str(e).split())[:200]}' for name, e in refused.items())
-    raise ToolNotFoundError(f'process {pid} cannot be entered: {told}', None, _mend(refused))
+    words = '; '.join(f'{name}: {" ".join(str(e).split())[:200]}' for name, e in refused.items())
+    raise ToolNotFoundError(f'process {pid} cannot be entered: {words}', None, _mend(refused))
 
 
 def _mend(refused: Container[str]) -> str:

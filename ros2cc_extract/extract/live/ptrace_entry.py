@@ -29,7 +29,7 @@ from ros2cc_extract.extract.live.thread_choice import (
     tracer_of,
 )
 
-MOST_TOLD_BYTES = 2000
+MOST_REPORTED_BYTES = 2000
 _LOOK_EVERY_S = 0.002
 _IN, _REFUSED, _GIVEN_UP = b'i', b'r', b'g'
 
@@ -172,12 +172,12 @@ def _in_a_child(work: Callable[[], None], pid: int, deadline: float) -> None:
                 f'process {pid} does not come to an end of loading a library: another one of its '
                 'threads keeps the lock of the dynamic linker'
             )
-        told = answer.read(MOST_TOLD_BYTES)
+        reported = answer.read(MOST_REPORTED_BYTES)
     os.waitpid(child, 0)
-    what, _, mend = told[1:].decode(errors='replace').partition('\0')
-    if told[:1] == _GIVEN_UP:
+    what, _, mend = reported[1:].decode(errors='replace').partition('\0')
+    if reported[:1] == _GIVEN_UP:
         raise InputError(what, None, mend)
-    if told[:1] != _IN:
+    if reported[:1] != _IN:
         raise OSError(what or 'the injector ended without an answer')
 
 
@@ -194,9 +194,9 @@ def _work_alone(work: Callable[[], None], write: int) -> None:
         work()
         os.write(write, _IN)
     except InputError as error:
-        os.write(write, _GIVEN_UP + f'{error.what}\0{error.mend}'.encode()[:MOST_TOLD_BYTES])
+        os.write(write, _GIVEN_UP + f'{error.what}\0{error.mend}'.encode()[:MOST_REPORTED_BYTES])
     except BaseException as error:
-        told = ' '.join(str(error).split()) or repr(error)
-        os.write(write, _REFUSED + told[:MOST_TOLD_BYTES].encode())
+        reported = ' '.join(str(error).split()) or repr(error)
+        os.write(write, _REFUSED + reported[:MOST_REPORTED_BYTES].encode())
     finally:
         os._exit(0)

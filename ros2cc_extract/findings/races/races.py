@@ -375,14 +375,14 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
     for first, second in ((one, other), (other, one)):
         if first.access.whole:
             continue
-        is_told = read_acted_on(first.access, first.doer, second.access) is not None
-        is_told = is_told or (first.access.rests and not first.access.in_place)
-        is_told = is_told and not _changes_nothing(first, second)
-        if is_told and _is_read_before(first, second):
+        is_wanted = read_acted_on(first.access, first.doer, second.access) is not None
+        is_wanted = is_wanted or (first.access.rests and not first.access.in_place)
+        is_wanted = is_wanted and not _changes_nothing(first, second)
+        if is_wanted and _is_read_before(first, second):
             return RaceKind.CHECK_THEN_ACT, first, second
     for first, second in ((one, other), (other, one)):
-        is_told = first.access.in_place and not _leaves_enough(first, second)
-        if is_told and _is_read_before(first, second) and first.access.rests:
+        is_wanted = first.access.in_place and not _leaves_enough(first, second)
+        if is_wanted and _is_read_before(first, second) and first.access.rests:
             return RaceKind.CHECK_THEN_CHANGE, first, second
     for first, second in ((one, other), (other, one)):
         if first.access.whole:
@@ -477,10 +477,10 @@ def _is_flag(conflict: _Conflict) -> bool:
 def _race(name: str, conflicts: list[_Conflict]) -> Race:
     worst = min(conflicts, key=lambda conflict: _WEIGHT[conflict.kind])
     first = worst.first.doer.name
-    told = [each for each in conflicts if each.kind is worst.kind or worst.kind not in _OWN_HARM]
+    shown = [each for each in conflicts if each.kind is worst.kind or worst.kind not in _OWN_HARM]
     uses = [
         use
-        for conflict in told
+        for conflict in shown
         if first in (conflict.first.doer.name, conflict.other.doer.name)
         for use in (conflict.first, conflict.other)
     ]

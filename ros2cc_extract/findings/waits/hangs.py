@@ -107,13 +107,17 @@ def show_hang(
     waits = standing if is_full else _concerned(standing, about, groups)
     if not waits:
         return run
-    told = sorted(
-        set(_told(run.moments, waits, {*about, *(name for wait in waits for name in wait.enders)}))
+    kept_moments = sorted(
+        set(
+            _kept_moments(
+                run.moments, waits, {*about, *(name for wait in waits for name in wait.enders)}
+            )
+        )
     )
     return replace(
         run,
-        moments=tuple(_renumbered(run.moments, told)),
-        left_out=len(run.moments) - len(told),
+        moments=tuple(_renumbered(run.moments, kept_moments)),
+        left_out=len(run.moments) - len(kept_moments),
         closing=_closing(waits, groups, names, is_full=is_full),
     )
 
@@ -144,7 +148,7 @@ def _concerned(
         names = wider
 
 
-def _told(
+def _kept_moments(
     moments: Sequence[Moment], waits: Sequence[Standstill], names: Collection[str]
 ) -> Iterator[int]:
     """Of the waiting callbacks the run that waits; of others what they do for it meanwhile."""
@@ -188,10 +192,10 @@ def _begin(moments: Sequence[Moment], who: str, since: int) -> int:
     return max((index + 1 for index in ends), default=0)
 
 
-def _renumbered(moments: Sequence[Moment], told: Sequence[int]) -> Iterator[Moment]:
+def _renumbered(moments: Sequence[Moment], kept_moments: Sequence[int]) -> Iterator[Moment]:
     """What changed in a step that is left out has changed in the next."""
     changes: dict[str, int | str] = {}
-    kept = set(told)
+    kept = set(kept_moments)
     number = 0
     for index, moment in enumerate(moments):
         changes |= moment.changes

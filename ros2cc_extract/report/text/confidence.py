@@ -36,8 +36,8 @@ def _count(confidence: Confidence, subject: Subject) -> str:
     remarks = [f'{assumed} by assumption'] if assumed else []
     if confidence.unresolved:
         remarks.append(f'{confidence.unresolved} unresolved')
-    told = f' ({", ".join(remarks)})' if remarks else ''
-    return f'{confidence.resolved + assumed} of {confidence.total} {subject.value}{told}'
+    more = f' ({", ".join(remarks)})' if remarks else ''
+    return f'{confidence.resolved + assumed} of {confidence.total} {subject.value}{more}'
 
 
 def _rules(summary: Summary) -> Iterator[str]:

@@ -43,5 +43,5 @@ class Paths:
 
     def remarks(self, finding: Finding) -> Sequence[Remark]:
         """Give the remarks of a finding at shown places, those that lead to it first."""
-        told = (*finding.chain, *finding.related)
-        return [replace(remark, place=self.of(remark.place)) for remark in told]
+        remarks = (*finding.chain, *finding.related)
+        return [replace(remark, place=self.of(remark.place)) for remark in remarks]

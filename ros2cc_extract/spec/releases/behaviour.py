@@ -69,7 +69,7 @@ class Behaviour:
         before, after = self.holds(old), self.holds(new)
         return before is not after and None not in (before, after)
 
-    def told(self, version: str | None) -> str:
+    def words_for(self, version: str | None) -> str:
         """What a release does, in words."""
         holds = self.holds(version)
         if holds is None:

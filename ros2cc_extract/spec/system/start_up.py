@@ -57,12 +57,12 @@ def start_circles(system: System) -> Iterator[tuple[StartWait, ...]]:
     """
     offers = _offers(system)
     stuck = _stuck({each.key: each for each in _waits(system, offers)}, offers)
-    told: set[frozenset[str]] = set()
+    known: set[frozenset[str]] = set()
     for wait in stuck.values():
         circle = _circle(wait, stuck, offers)
         names = frozenset(each.process.name for each in circle)
-        if circle and names not in told:
-            told.add(names)
+        if circle and names not in known:
+            known.add(names)
             yield tuple(circle)
 
 

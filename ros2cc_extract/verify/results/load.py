@@ -80,14 +80,14 @@ class Load:
         if self.kind is LoadKind.UNKNOWN:
             can_starve = self.serving is Serving.LEFTOVER
             return self.kind.value if can_starve else 'delayed under overload; rates unknown'
-        told = f'{self.kind.value} (load {self.before:.2f}{self._measured}'
+        start = f'{self.kind.value} (load {self.before:.2f}{self._measured}'
         if self.refused is not None:
-            return f'{told}; {self.refused})'
+            return f'{start}; {self.refused})'
         if self.kind is LoadKind.UNDECIDED:
-            return f'{told}; {self.contenders} may want a thread at a time, and there are fewer)'
+            return f'{start}; {self.contenders} may want a thread at a time, and there are fewer)'
         if self.kind is LoadKind.STARVED or self.runs is None or self.runs >= 1:
-            return f'{told})'
-        return f'{told}; about {self.runs:.0%} of its arrivals are served)'
+            return f'{start})'
+        return f'{start}; about {self.runs:.0%} of its arrivals are served)'
 
     @property
     def _measured(self) -> str:

@@ -77,7 +77,7 @@ class Names:
         return {'resource': name, 'wakers': wakers, 'needed': None}
 
 
-def tell(run: Run, names: Names) -> Evidence:
+def describe(run: Run, names: Names) -> Evidence:
     """
     Turn a replayed run into moments.
 

@@ -50,7 +50,7 @@ class Grammar:
             if known is not None:
                 return known
         made = self._made(builder)
-        any(store_content(path, _told(made)) for path in paths)
+        any(store_content(path, _dumped(made)) for path in paths)
         return made
 
     def _made(self, builder: Transformer[Any, Any]) -> Lark:
@@ -78,7 +78,7 @@ def _folders() -> list[Path]:
     return [*([bytecode] if takes_more else []), *([users] if users is not None else [])]
 
 
-def _told(parser: Lark) -> bytes:
+def _dumped(parser: Lark) -> bytes:
     """Tables as lark itself gives them away; a builder stays behind."""
     from lark.grammar import Rule
     from lark.lexer import TerminalDef

@@ -61,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
-    from ros2cc_extract.cli.shared.releases import tell_releases
+    from ros2cc_extract.cli.shared.releases import report_releases
     from ros2cc_extract.errors import InputError
     from ros2cc_extract.extract.live.run import run_command
 
@@ -72,7 +72,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     compare = _comparison(args.check, stdout, stderr) if args.check else None
 
     def finish(live: tuple[Spec, ...]) -> int:
-        tell_releases((unit.rclpy for unit in live), stderr)
+        report_releases((unit.rclpy for unit in live), stderr)
         return compare(live) if compare else EXIT_CLEAN
 
     return run_command(

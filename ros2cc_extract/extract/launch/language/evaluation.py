@@ -135,7 +135,7 @@ class Evaluator:
                 return value
         texts = [str(value) for value in values]
         if part.operator in ('equals', 'not-equals') and len(texts) == 2:
-            return _told((texts[0] == texts[1]) is (part.operator == 'equals'))
+            return _as_text((texts[0] == texts[1]) is (part.operator == 'equals'))
         truths = [_truth(text) for text in texts]
         if part.operator == 'if' and truths and truths[0] is not None:
             rest = texts[1:] if truths[0] else texts[2:]
@@ -143,11 +143,11 @@ class Evaluator:
         if not truths or None in truths:
             return Unknown(f'{part.operator} of {", ".join(texts)}')
         if part.operator == 'not':
-            return _told(not truths[0])
-        return _told(all(truths) if part.operator == 'and' else any(truths))
+            return _as_text(not truths[0])
+        return _as_text(all(truths) if part.operator == 'and' else any(truths))
 
 
-def _told(value: bool) -> str:
+def _as_text(value: bool) -> str:
     return 'true' if value else 'false'
 
 

@@ -54,7 +54,7 @@ class Control:
         *,
         refuses: bool = True,
     ) -> None:
-        self._tell_begun = begun
+        self._report_begun = begun
         self._changed = threading.Condition(threading.Lock())
         self._policy: Policy | None = None
         self.is_closed = False
@@ -166,7 +166,7 @@ class Control:
             if self._granted is not None and self._granted[0].entity is entity:
                 self._granted = None
                 self._send(activity)
-        self._tell_begun(entity)
+        self._report_begun(entity)
 
     def refused(self, entity: Any) -> None:
         with self._changed:

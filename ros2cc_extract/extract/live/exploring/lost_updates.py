@@ -16,7 +16,7 @@ from typing import Any
 from ..steering.values import NOTHING, copied, shown, target, value
 from .marks import READ, WRITE, Mark
 
-Tell = Callable[..., None]
+Report = Callable[..., None]
 
 
 class Writers:
@@ -37,12 +37,12 @@ class Accesses:
     """
     What one call of a function has read, and writes.
 
-    :param tell: called with a lost update.
+    :param report: called with a lost update.
     """
 
-    def __init__(self, writers: Writers, tell: Tell) -> None:
+    def __init__(self, writers: Writers, report: Report) -> None:
         self._writers = writers
-        self._tell = tell
+        self._report = report
         self._read: dict[str, tuple[Any, int]] = {}
         self._lost: dict[str, Any] | None = None
 
@@ -69,7 +69,7 @@ class Accesses:
             lost, self._lost = self._lost, None
             # Who was only led to store what the other one has stored has taken nothing away.
             if lost is not None and (mark.computed or shown(own) != lost['other']):
-                self._tell(mark, own=shown(own), **lost)
+                self._report(mark, own=shown(own), **lost)
 
 
 def _owner(frame: FrameType, mark: Mark) -> Any:

@@ -78,7 +78,7 @@ def _plain_wait(recorder: Recorder, wait: Any, lap: CodeType, asker: Any) -> Any
     note, lose = recorder.journal.note, recorder.lose
 
     def traced_wait(*args: Any, **named: Any) -> Any:
-        told = None
+        reported = None
         try:
             caller = sys._getframe(1)
             record = None
@@ -87,15 +87,15 @@ def _plain_wait(recorder: Recorder, wait: Any, lap: CodeType, asker: Any) -> Any
             if record is not None:
                 number = record.number
                 note(WAIT, number)
-                told = number
+                reported = number
         except Exception as error:
             lose(error)
         try:
             return wait(*args, **named)
         finally:
             try:
-                if told is not None:
-                    note(WOKEN, told)
+                if reported is not None:
+                    note(WOKEN, reported)
             except Exception as error:
                 lose(error)
 
@@ -273,16 +273,16 @@ class _Steps:
             return None
         clock, moves = _clock(), _can_go_on(task)
         if moves:
-            self._tell_begin(clock, record)
+            self._report_begin(clock, record)
         return clock, moves
 
     def end(self, task: Any, record: Any, begun: tuple[int, bool] | None = None) -> None:
         if begun is not None:
-            clock, told = begun
-            if not told and not _can_go_on(task):
+            clock, reported = begun
+            if not reported and not _can_go_on(task):
                 return
-            if not told:
-                self._tell_begin(clock, record)
+            if not reported:
+                self._report_begin(clock, record)
         elif task.executing() or task._ros2cc_suspended or not _is_paused(task):
             return
         is_work = type(record) is TaskRecord
@@ -294,7 +294,7 @@ class _Steps:
         what = PAUSE if is_work else SUSPEND
         self._journal.note(what, record.number)
 
-    def _tell_begin(self, clock: int, record: Any) -> None:
+    def _report_begin(self, clock: int, record: Any) -> None:
         what = RUN if type(record) is TaskRecord else RESUME
         self._journal.put(clock, get_ident(), what, record.number)
 

@@ -196,6 +196,6 @@ def _ordered_groups(
         if group.number in used:
             signature = group.signature()
             order = sum(known[:-1] == signature for known in found)
-            told_apart = (*signature, order)
-            found[told_apart] = group.number
+            distinct = (*signature, order)
+            found[distinct] = group.number
     return found

@@ -265,9 +265,9 @@ class Recorder:
         """Give the begins of the runs that have not ended, but for those in ``before``."""
         with self.lock:
             begun = [(number, each.begun) for number, each in self._timings.items()]
-        told = {fields for fields in unpack(before) if fields[2] == BEGIN}
+        reported = {fields for fields in unpack(before) if fields[2] == BEGIN}
         rows = ((at, thread, BEGIN, number) for number, runs in begun for at, thread in runs)
-        return [row for row in sorted(rows) if row not in told]
+        return [row for row in sorted(rows) if row not in reported]
 
     def _join(self, record: EntityRecord, group: Any, node: Any) -> None:
         owner = self.note_node(node)

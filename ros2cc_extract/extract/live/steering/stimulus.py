@@ -87,12 +87,12 @@ class Stimulus:
                     with contextlib.suppress(Exception):
                         act(name, namespace)
             self._turn += 1
-            self._tell_when_ready()
+            self._report_when_ready()
             until = time.monotonic() + ROUND_S
             while time.monotonic() < until:
                 executor.spin_once(timeout_sec=0.02)
 
-    def _tell_when_ready(self) -> None:
+    def _report_when_ready(self) -> None:
         if self._ready is not None and any(self._others()):
             self._first = self._first or time.monotonic()
             if time.monotonic() - self._first > GRACE_S + SETTLES_S:

@@ -23,7 +23,7 @@ from ros2cc_extract.extract.static.concurrency.waits import counted_tests, polli
 from ros2cc_extract.extract.static.program.text_queries import is_recursion
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.path_facts import Told
+from ros2cc_extract.extract.static.python.machine.path_facts import Implied
 from ros2cc_extract.extract.static.python.objects.escape import reached
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.source_locations import Place, Unknown
@@ -84,10 +84,10 @@ class Notes(Effects):
         """A handler that gives locks back runs while they are held."""
         return locks_given_back(body, self.world)
 
-    def begin_loop(self, node: ast.While, frame: Frame, told: Told | None) -> object:
+    def begin_loop(self, node: ast.While, frame: Frame, implied: Implied | None) -> object:
         """A loop may do nothing but wait."""
         before = polling_loops.mark(self)
-        polling_loops.begin(self, node, frame, told)
+        polling_loops.begin(self, node, frame, implied)
         return before
 
     def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:

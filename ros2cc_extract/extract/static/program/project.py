@@ -175,7 +175,7 @@ class Project:
     def _add_path(self, path: Path) -> None:
         if self.disk.is_folder(path):
             barred = len(self.barred)
-            found = sorted(python_files(self.disk, path, self._tell_barred))
+            found = sorted(python_files(self.disk, path, self._report_barred))
             if not found and len(self.barred) == barred:
                 raise InputError('no Python file in this directory', Place(str(path)))
             self.given.extend(self._add_file(file) for file in found)
@@ -202,7 +202,7 @@ class Project:
         self._by_shown[source.shown] = source
         return source
 
-    def _tell_barred(self, error: OSError) -> None:
+    def _report_barred(self, error: OSError) -> None:
         path = Path(os.fsdecode(error.filename))
         shown = self._shown(path, Path(os.path.abspath(path)))  # noqa: PTH100
         self.barred.append(unreadable_folder(error, shown))

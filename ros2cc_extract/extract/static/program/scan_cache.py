@@ -47,8 +47,8 @@ def _key(project: Project) -> str:
     for path, data in script_files(project.disk, project.script_folders()):
         digest.update(_bytes(f'{path}\0{digest_of(data)}\n'))
     digest.update(_bytes(project.parameters.key))
-    for told in project.barred:
-        digest.update(_bytes(f'{told.place} {told.message}\n'))
+    for barred in project.barred:
+        digest.update(_bytes(f'{barred.place} {barred.message}\n'))
     return digest.hexdigest()
 
 

@@ -169,10 +169,10 @@ def _use_without_caller(machine: RosInterpreter, value: Class | Function) -> Non
         if is_test(value.name):
             end_test(machine)
         nodes, entities = len(machine.world.nodes), len(machine.world.entities)
-        told = len(machine.world.diagnostics)
+        since = len(machine.world.diagnostics)
         guarded(machine, lambda: machine.run_function(value, call), value.place)
         if isinstance(value.node, ast.AsyncFunctionDef):
-            forget_awaits(machine.world, told)
+            forget_awaits(machine.world, since)
         _mark_later(machine.world, nodes, entities, value.place)
         if is_test(value.name):
             end_test(machine)

@@ -18,7 +18,7 @@ from ros2cc_extract.deadline import Patience, TimeOverError, ended_by
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
-from ros2cc_extract.extract.static.packaging.api import declarations, told
+from ros2cc_extract.extract.static.packaging.api import declarations, notes_of
 from ros2cc_extract.extract.static.program.entry_points import entries_of
 from ros2cc_extract.extract.static.program.project import FollowedFile, Project
 from ros2cc_extract.extract.static.program.relevance import replaces_rclpy
@@ -144,7 +144,7 @@ class _Worker:
         self._files = files
         installed = declarations(project.disk, project.script_folders(), project.shown)
         self._scripts = frozenset((each.module, each.function) for each in installed.scripts)
-        self.unread_programs = told(installed.unread)
+        self.unread_programs = notes_of(installed.unread)
 
     def answer(self, piece: Piece) -> Answer:
         """Follow a piece."""
@@ -177,8 +177,8 @@ class _Worker:
         except Exception as error:
             if os.environ.get('ROS2CC_TRACEBACK'):
                 raise
-            told = ' '.join(f'{type(error).__name__}: {error}'.split())[:LONGEST_MESSAGE]
-            return _failed(source, 'internal-error', f'cannot be followed: {told}', DEFECT)
+            message = ' '.join(f'{type(error).__name__}: {error}'.split())[:LONGEST_MESSAGE]
+            return _failed(source, 'internal-error', f'cannot be followed: {message}', DEFECT)
         finally:
             forget_programs()
 
@@ -245,7 +245,7 @@ class _Scan:
         every = list(zip(from_entries, from_rest, strict=True))
         noticed = [d for pair in every for found in pair for d in found.noticed]
         cut = [found.cut or other.cut for found, other in every]
-        noticed.extend(self._told_as_cut(cut))
+        noticed.extend(self._reported_as_cut(cut))
         noticed.extend(self._worker.unread_programs)
         unread = (*self._project.barred, *(d for each in read for d in each.unread))
         extraction = Extraction(
@@ -311,7 +311,7 @@ class _Scan:
                 raise
             self._is_interrupted = True
 
-    def _told_as_cut(self, cut: Sequence[str]) -> Iterator[Diagnostic]:
+    def _reported_as_cut(self, cut: Sequence[str]) -> Iterator[Diagnostic]:
         """Report once what may be missing, at the first file of it."""
         places = [source.shown for source, why in zip(self._files, cut, strict=True) if why]
         if places:

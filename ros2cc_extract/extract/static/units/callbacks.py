@@ -30,7 +30,7 @@ from ros2cc_extract.extract.static.units.callback_names import (
 )
 from ros2cc_extract.extract.static.units.entity_aliases import same_on_a_ghost
 from ros2cc_extract.extract.static.units.executor import Unit, executor_of
-from ros2cc_extract.extract.static.units.set_up_waits import told
+from ros2cc_extract.extract.static.units.set_up_waits import named_waits
 from ros2cc_extract.extract.static.units.torn_messages import pieces_of
 from ros2cc_extract.extract.static.units.unused_groups import unused_groups
 from ros2cc_extract.extract.static.units.waits import UnitWaits
@@ -338,7 +338,7 @@ class UnitBuilder:
                 )
                 for state in states
             ),
-            told(self._unit.set_up, self._world, waits, doers),
+            named_waits(self._unit.set_up, self._world, waits, doers),
         )
 
     def _sources(self, entities: Sequence[EntityState]) -> tuple[str, ...]:
@@ -357,8 +357,8 @@ def _plain_label(node: Instance) -> str:
 def _key_of(entity: EntityState) -> tuple[str | Unknown | None, str | None]:
     """Its name, and the rule that assumed it; a client's unknown name is reported once."""
     key, assumed = _key(entity.key)
-    is_told = entity.kind is EntityKind.DONE_CALLBACK and isinstance(key, Unknown)
-    return (None, None) if is_told else (key, assumed)
+    is_reported = entity.kind is EntityKind.DONE_CALLBACK and isinstance(key, Unknown)
+    return (None, None) if is_reported else (key, assumed)
 
 
 def _key(value: Value | None) -> tuple[str | Unknown | None, str | None]:

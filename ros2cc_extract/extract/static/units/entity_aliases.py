@@ -70,7 +70,7 @@ def each_once(units: Sequence[Spec]) -> tuple[Spec, ...]:
     named = {_line(c) for c in known if not _nobody_passes(c.key)}
     kept: dict[object, Spec] = {}
     for unit in units:
-        if unit.callbacks and all(_is_told(c, owned, named) for c in unit.callbacks):
+        if unit.callbacks and all(_is_reported(c, owned, named) for c in unit.callbacks):
             continue
         is_known = any(not isinstance(callback.node, Unknown) for callback in unit.callbacks)
         key = id(unit) if is_known else replace(unit, entry=None, sources=(), set_up=())
@@ -78,7 +78,7 @@ def each_once(units: Sequence[Spec]) -> tuple[Spec, ...]:
     return tuple(kept.values())
 
 
-def _is_told(callback: Callback, owned: set[object], named: set[object]) -> bool:
+def _is_reported(callback: Callback, owned: set[object], named: set[object]) -> bool:
     """Whether it only lacks a caller, and another unit has that caller in sight."""
     if _nobody_passes(callback.key):
         return _line(callback) in named

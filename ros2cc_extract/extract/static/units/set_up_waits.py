@@ -65,7 +65,7 @@ def _nodes_of(wait: SetUpWait, world: RosWorld) -> Iterator[object]:
             yield waking.by.node
 
 
-def told(
+def named_waits(
     waits: Iterable[SetUpWait], world: RosWorld, named: UnitWaits, doers: Mapping[str, object]
 ) -> tuple[Blocking, ...]:
     """

@@ -38,10 +38,10 @@ def specs_of(world: RosWorld, entry: str | None) -> list[Spec]:
         spec = UnitBuilder(world, unit).build(entry)
         found.append(_with_unresolved(spec))
     found = with_askers(found)
-    told = {(fact.reason, fact.source) for spec in found for fact in spec.unresolved}
-    told |= {(diagnostic.message, diagnostic.place) for diagnostic in world.diagnostics}
-    lost = [cut for cut in world.cut if (cut.reason, cut.place) not in told]
-    world.diagnostics.extend(_not_told(cut) for cut in lost)
+    reported = {(fact.reason, fact.source) for spec in found for fact in spec.unresolved}
+    reported |= {(diagnostic.message, diagnostic.place) for diagnostic in world.diagnostics}
+    lost = [cut for cut in world.cut if (cut.reason, cut.place) not in reported]
+    world.diagnostics.extend(_as_diagnostic(cut) for cut in lost)
     return found
 
 
@@ -89,7 +89,7 @@ def _is_known(executor: Executor) -> bool:
     return is_spun and executor.unresolved is None and executor.kind in KINDS
 
 
-def _not_told(cut: Cut) -> Diagnostic:
+def _as_diagnostic(cut: Cut) -> Diagnostic:
     """What no unit can carry: there may be no node at all."""
     return Diagnostic(
         severity=Severity.WARNING,

@@ -31,13 +31,13 @@ def find(context: Context) -> Iterator[Hit]:
     unit = context.unit
     if unit.unresolved or isinstance(workers_of(unit.executor), Unknown):
         return
-    told: set[tuple[str, str]] = set()
+    reported: set[tuple[str, str]] = set()
     for wait in waits_of(context):
         for lock in _held(wait):
             key = (wait.caller.name, lock)
-            stuck = {} if key in told else dict(_stuck(wait.caller, lock, context))
+            stuck = {} if key in reported else dict(_stuck(wait.caller, lock, context))
             if stuck:
-                told.add(key)
+                reported.add(key)
                 yield _hit(wait, lock, stuck, context)
 
 

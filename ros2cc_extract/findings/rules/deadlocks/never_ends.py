@@ -151,10 +151,10 @@ def unexplained(context: Context) -> Iterator[tuple[list[Stuck], list[Stuck]]]:
     explained = {
         subject for rule in EXPLAINED for hit in rule.find(context) for subject in hit.subjects
     }
-    told: set[str] = set()
+    reported: set[str] = set()
     for caller in context.doers:
         run = refuting_run(PROGRESS, context, caller)
-        if run is None or rests_on_absent_service(run) or caller.name in told:
+        if run is None or rests_on_absent_service(run) or caller.name in reported:
             continue
         stuck = stuck_in(run, context)
         names = {each.doer.name for each in stuck}
@@ -164,7 +164,7 @@ def unexplained(context: Context) -> Iterator[tuple[list[Stuck], list[Stuck]]]:
             # A thread that the program ends at its end waits as long as it is meant to.
             if block.call == WORKING_LOOP or block.at_end is not None:
                 continue
-            told.update(each.doer.name for each in together)
+            reported.update(each.doer.name for each in together)
             yield together, stuck
 
 

@@ -261,19 +261,19 @@ def _is_foreign(block: Blocking) -> bool:
     return isinstance(block.on, Unknown) and block.call in _FOREIGN
 
 
-def _cut_short(context: Context, told: Sequence[AnyWait]) -> Iterator[AnyWait]:
+def _cut_short(context: Context, reported: Sequence[AnyWait]) -> Iterator[AnyWait]:
     """
     Waits of callbacks about whose end a limit of the checker has left the question open.
 
     Or that end only by what is not known to come; where a wait is reported already, claims about
     ends may be open for its reason.
     """
-    callers = {wait.caller.name for wait in told}
+    callers = {wait.caller.name for wait in reported}
     for caller in context.doers:
         result = verdict_on(PROGRESS, context, caller)
         if result is None or result.verdict is not Verdict.UNDECIDED or caller.name in callers:
             continue
-        if result.in_doubt or not told:
+        if result.in_doubt or not reported:
             yield from (
                 AnyWait(caller, block, kind_of(block))
                 for block in caller.blocking

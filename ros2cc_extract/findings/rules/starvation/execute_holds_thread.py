@@ -36,7 +36,7 @@ def _of_servers(context: Context) -> Iterator[Hit]:
         is_server = wait.caller.entity is EntityKind.ACTION_SERVER and not wait.has_timeout
         if is_server and context.exclusive_group(wait.caller) is not None:
             execute = _executing(wait, context)
-            if execute is not None and not _tells_it_to_stop(wait, execute):
+            if execute is not None and not _stops_it(wait, execute):
                 first.setdefault(wait.caller.name, (wait, execute))
     for wait, execute in first.values():
         yield _hit_of_server(wait, execute, context)
@@ -55,7 +55,7 @@ def _executing(wait: Wait, context: Context) -> Callback | None:
     return execute if is_own and is_late and execute.blocking else None
 
 
-def _tells_it_to_stop(wait: Wait, execute: Callback) -> bool:
+def _stops_it(wait: Wait, execute: Callback) -> bool:
     """Whether the server has aborted the goal by then, or changed what that may look at."""
     server, end = wait.caller, steps(wait.block)
     if any(act.name == ABORTS for act in server.changes):

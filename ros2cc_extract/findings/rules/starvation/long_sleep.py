@@ -36,7 +36,7 @@ LISTED = 5
 
 def find(context: Context) -> Iterator[Hit]:
     """One finding per callback, at its longest pause; execute callbacks are CC203's."""
-    told: set[str] = set()
+    reported: set[str] = set()
     timed = (_as_timed(wait, context) for wait in waits_of(context))
     pauses = (wait for wait in timed if _is_pause(wait) or _is_long_wait(wait, context))
     for _name, waits in groupby(pauses, key=lambda wait: wait.caller.name):
@@ -50,10 +50,10 @@ def find(context: Context) -> Iterator[Hit]:
             long = [wait for wait in own if not wait.block.conditional]
         if long:
             hits = list(_hits(tuple({wait.place: wait for wait in long}.values()), context))
-            told |= {subject for hit in hits for subject in hit.subjects}
+            reported |= {subject for hit in hits for subject in hit.subjects}
             yield from hits
     for hold in long_holds(context, LONG_SLEEP_S):
-        if hold.wait.caller.name not in told:
+        if hold.wait.caller.name not in reported:
             yield _of_lock(hold)
 
 

@@ -25,15 +25,15 @@ def find(context: Context) -> Iterator[Hit]:
         load = load_of(context.unit, callback, demands)
         if load.kind is LoadKind.DEGRADED and load.runs is not None and load.runs <= MOST_RUNS:
             victims.setdefault(_heaviest(load.busy, demands), []).append((callback, load))
-    told = {name for hit in _told(context) for name in hit.subjects}
+    reported = {name for hit in _reported_hits(context) for name in hit.subjects}
     for names, kept in victims.items():
         busy = [context.by_name[name] for name in names]
         others = [(callback, load) for callback, load in kept if callback.name not in names]
-        if others and told.isdisjoint(names):
+        if others and reported.isdisjoint(names):
             yield _hit(busy, others, context)
 
 
-def _told(context: Context) -> Iterator[Hit]:
+def _reported_hits(context: Context) -> Iterator[Hit]:
     yield from long_sleep.find(context)
     yield from group_overload.find(context)
 

@@ -28,8 +28,8 @@ def find(system: System) -> Iterator[Hit]:
 
 def _is_known(process: Process) -> bool:
     """Whether all that the process has in the graph is in sight."""
-    is_told = process.outside is None and bool(process.nodes) and not process.launched.open
-    return is_told and all(
+    is_whole = process.outside is None and bool(process.nodes) and not process.launched.open
+    return is_whole and all(
         node.open is None
         and node.naming is not None
         and all(isinstance(end.written, str) for end in node.endpoints)

@@ -121,15 +121,15 @@ def _circles(
         for name, keys in needed.items()
     }
     reached = {name: _reached(name, ahead) for name in ahead}
-    told: set[str] = set()
+    done: set[str] = set()
     for process in processes:
         mine = [
             other
             for other in processes
             if other.name in reached[process.name] and process.name in reached[other.name]
         ]
-        if len(mine) > 1 and process.name not in told:
-            told |= {each.name for each in mine}
+        if len(mine) > 1 and process.name not in done:
+            done |= {each.name for each in mine}
             yield mine
 
 

@@ -136,14 +136,14 @@ def is_heard(guard: Guard, notifiers: list[Notifier]) -> bool:
     begun = (each for each in notifiers if not each.waking.conditional)
     if guard.hold is None or any(each.place in guard.begun for each in begun):
         return True
-    if any(guard.names & _told_by(each, guard.hold[0]) for each in notifiers):
+    if any(guard.names & _written_by(each, guard.hold[0]) for each in notifiers):
         return True
     if any(guard.names & each.wrote for each in notifiers):
         return False
     return guard.is_open
 
 
-def _told_by(notifier: Notifier, lock: str) -> frozenset[str]:
+def _written_by(notifier: Notifier, lock: str) -> frozenset[str]:
     """What it has written by then, and in the same hold of the lock of the condition."""
     holds = (hold for hold in notifier.waking.holds if hold[0] == lock)
-    return notifier.waking.told.union(*(notifier.stored.get(hold, ()) for hold in holds))
+    return notifier.waking.written.union(*(notifier.stored.get(hold, ()) for hold in holds))

@@ -168,14 +168,14 @@ def note_kept_locks(world: ConcurrentWorld) -> None:
 
 def _taken_in(node: FunctionNode, world: ConcurrentWorld) -> Iterator[tuple[ast.Call, str, str]]:
     """The locks that a function takes by a call, each once, with the end of the method's name."""
-    told: set[tuple[str, str]] = set()
+    reported: set[tuple[str, str]] = set()
     for part in ast.walk(node):
         if isinstance(part, ast.Call) and isinstance(part.func, ast.Attribute):
             method, lock = part.func.attr, ast.unparse(part.func.value)
             key = lock, method.removeprefix(_TAKES)
             is_lock = lock.rpartition('.')[2] in world.locks
-            if method.startswith(_TAKES) and is_lock and key not in told:
-                told.add(key)
+            if method.startswith(_TAKES) and is_lock and key not in reported:
+                reported.add(key)
                 yield part, *key
 
 

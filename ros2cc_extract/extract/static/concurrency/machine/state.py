@@ -199,12 +199,12 @@ class ConcurrentWorld(World):
     :param left_callbacks: of futures that were not complete, see ``done_callbacks.py``; and
         ``completed`` the identities of those futures that somebody completes.
     :param activities: all of them, in the order of their start.
-    :param told: how many of them were followed for what they do.
+    :param followed_count: how many of them were followed for what they do.
     :param loop: where the loop of asyncio begins that runs the set-up.
     :param limit: how long each wait of a coroutine may last where ``asyncio.timeout`` is entered.
     :param forked: where the program splits off a child that runs its own text.
     :param on_loop: a callback runs a coroutine by asyncio, which holds its thread.
-    :param retelling: one is followed for what it does; what it makes is known already.
+    :param second_pass: one is followed for what it does; what it makes is known already.
     :param readers: who reads the pipes of a child process, by the place where that is made.
     :param queues: what is put into queues, see ``queue_items.py``.
     :param homes: the attribute that first held a collection, see ``collection_aliases.py``.
@@ -248,8 +248,8 @@ class ConcurrentWorld(World):
     lost_wakes: dict[tuple[str, Word], list[Place]] = field(default_factory=dict)
     given: dict[int, Unknown] = field(default_factory=dict)
     activities: list[ActivityState] = field(default_factory=list)
-    told: int = 0
-    retelling: bool = False
+    followed_count: int = 0
+    second_pass: bool = False
     accepted: tuple[str, ...] = ()
     flag_tests: dict[str, set[str]] = field(default_factory=dict)
     ended: dict[tuple[Place, int], dict[KeptIn, Holds]] = field(default_factory=dict)

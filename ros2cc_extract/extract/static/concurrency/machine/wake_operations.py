@@ -98,7 +98,7 @@ class Waking:
     :param in_loop: it stands in a loop with an unknown number of rounds.
     :param unless_done: branches skip it only where it has been done before.
     :param repeats: it stands in a loop.
-    :param told: names of the data that ``by`` has written by then.
+    :param written: names of the data that ``by`` has written by then.
     :param holds: the locks that are held then.
     :param is_sign: what is put may be a sign to stop for the consumer: a constant, or an object.
     """
@@ -116,7 +116,7 @@ class Waking:
     unless_done: bool = False
     in_loop: bool = False
     repeats: bool = False
-    told: frozenset[str] = frozenset()
+    written: frozenset[str] = frozenset()
     holds: frozenset[Hold] = frozenset()
     is_sign: bool = False
 

@@ -43,7 +43,7 @@ from ros2cc_extract.extract.static.program.retried_calls import is_retried
 from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Told, told_by
+from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Implied, implied_by
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
 from ros2cc_extract.extract.static.python.values.values import (
@@ -90,13 +90,15 @@ def mark(machine: ConcurrentMachine) -> Mark | None:
     )
 
 
-def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told | None) -> None:
+def begin(
+    machine: ConcurrentMachine, loop: ast.While, frame: Frame, implied: Implied | None
+) -> None:
     """
     A ``while`` loop begins; one that only waits for a future is a busy wait.
 
     A coroutine that awaits in each round gives its thread back, as one that awaits the future.
 
-    :param told: what its test shows.
+    :param implied: what its test shows.
     """
     world = machine.world
     if world.effects is None and not is_idle(loop):
@@ -104,7 +106,7 @@ def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told 
     place = frame.place(loop)
     retry_loops.begin(machine, loop, frame)
     _note_rest(machine, loop, frame)
-    is_known = told is not None and _note_things(machine, loop, frame, told)
+    is_known = implied is not None and _note_things(machine, loop, frame, implied)
     if not is_known:
         is_known = _note_by_name(machine, loop, frame) or _note_answer(machine, loop, frame)
     if world.in_callback and not is_known and spins(loop):
@@ -178,15 +180,17 @@ def _gives_back(machine: ConcurrentMachine, loop: ast.While) -> bool:
     return frees and awaits_each_round(loop)
 
 
-def _note_things(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told) -> bool:
+def _note_things(
+    machine: ConcurrentMachine, loop: ast.While, frame: Frame, implied: Implied
+) -> bool:
     """Whether what happens to objects makes the test fail; the loop waits for that."""
     tests = list(exit_tests(loop))
     place = frame.place(loop)
     why = Unknown('the loop also ends otherwise', place)
     is_timed = any(_ends_otherwise(machine, test, loop, frame) for test in tests)
     seconds = Mystery(why) if is_timed else None
-    needed, any_of_them = _things(told.fails), _things(told.breaks)
-    if told.is_either and any_of_them:
+    needed, any_of_them = _things(implied.fails), _things(implied.breaks)
+    if implied.is_either and any_of_them:
         _note_busy(machine, loop, choice(any_of_them), seconds, frame)
     elif needed or len(any_of_them) == 1:
         for thing in needed or any_of_them:
@@ -211,31 +215,31 @@ def _ends_otherwise(
         return any(_ends_otherwise(machine, each, loop, frame) for each in test.values)
     if isinstance(test, ast.UnaryOp):
         return _ends_otherwise(machine, test.operand, loop, frame)
-    if _tells(machine, test, frame):
+    if _shows_end(machine, test, frame):
         return False
     return runs_out(test, loop) or asks_for_cancel(test)
 
 
-def _tells(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
-    return asks_object(test) or _told_now(machine, test, frame) is not None
+def _shows_end(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
+    return asks_object(test) or _implied_now(machine, test, frame) is not None
 
 
-def _told_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Told | None:
+def _implied_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Implied | None:
     """What a test shows where it stands, without any note of what it reads."""
     world = machine.world
     noted, ready, world.effects = world.effects, world.ready, EffectLog()
     try:
-        return told_by(machine.evaluate(test, frame))
+        return implied_by(machine.evaluate(test, frame))
     finally:
         world.effects, world.ready = noted, ready
 
 
-def _told_by_exits(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Told | None:
+def _implied_by_exits(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Implied | None:
     """What ends a loop whose test shows it only after a round, or stands inside."""
     for test in exit_tests(loop):
-        told = _told_now(machine, test, frame)
-        if told is not None:
-            return told if test is loop.test else told.negated()
+        implied = _implied_now(machine, test, frame)
+        if implied is not None:
+            return implied if test is loop.test else implied.negated()
     return None
 
 
@@ -253,10 +257,10 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
         return
     asked = machine.world.reading.asked.get(frame.place(loop))
     inside = effects.blocking[before.waits :]
-    if _is_told(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):
+    if _waits_inside(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):
         return
-    told = _told_by_exits(machine, loop, frame)
-    if told is not None and _note_things(machine, loop, frame, told):
+    implied = _implied_by_exits(machine, loop, frame)
+    if implied is not None and _note_things(machine, loop, frame, implied):
         return
     if not tests:
         if is_endless(loop) and machine.world.in_callback and not leaves(loop):
@@ -321,8 +325,8 @@ def _note_spinning(machine: ConcurrentMachine, loop: ast.While, frame: Frame) ->
     end = getattr(loop, 'end_lineno', None) or loop.lineno
     place = frame.place(loop)
     spun = world.served_within(place.file, loop.lineno, end)
-    told = _told_now(machine, loop.test, frame)
-    things = _things(told.fails | told.breaks) if told is not None else []
+    implied = _implied_now(machine, loop.test, frame)
+    things = _things(implied.fails | implied.breaks) if implied is not None else []
     if things:
         is_timed = _ends_otherwise(machine, loop.test, loop, frame)
         why = Mystery(Unknown('the loop also ends otherwise', place)) if is_timed else None
@@ -412,7 +416,7 @@ def _is_guarded(block: Blocking, asked: Asked | None) -> bool:
     return guard is not None and asked is not None and guard.hold in asked.holds
 
 
-def _is_told(
+def _waits_inside(
     machine: ConcurrentMachine, loop: ast.While, effects: EffectLog, before: Mark
 ) -> bool:
     """Whether the waits inside stand for the loop; a thread's loop ends by its test."""

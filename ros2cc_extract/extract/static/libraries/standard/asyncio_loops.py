@@ -97,7 +97,7 @@ def _run_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 def _note_run(machine: ConcurrentMachine, loop: Value) -> None:
     world = machine.world
-    if not world.retelling and not world.in_callback:
+    if not world.second_pass and not world.in_callback:
         world.loop_runs.append(LoopRun(loop, world.thread))
 
 

@@ -65,7 +65,7 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
         limit = slots.get(_TIMEOUT, slots.get(_LIMIT))
         if row.takes_limit and isinstance(limit, Value):
             timeout = limit
-        is_at_once = (name == _CONNECT and _DATAGRAM in slots) or _is_told_so(call)
+        is_at_once = (name == _CONNECT and _DATAGRAM in slots) or _is_set_so(call)
         is_at_once = (is_at_once and row.takes_limit) or _is_killed(machine, name, call.place)
         is_at_once = is_at_once or (isinstance(timeout, Const) and timeout.value == 0)
         is_at_once = is_at_once or is_short(name, call)
@@ -85,7 +85,7 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
     return handler
 
 
-def _is_told_so(call: Call) -> bool:
+def _is_set_so(call: Call) -> bool:
     """Whether a read takes the flag by which it does not wait (``recv(2)``)."""
     given = (*call.args, *call.keywords.values())
     return any(isinstance(each, Name) and each.name == _AT_ONCE for each in given)

@@ -54,8 +54,8 @@ def note_followed(world: ConcurrentWorld, handler: ActivityState) -> None:
     for block in handler.effects.blocking:
         place = block.source or handler.place
         wait = OutsideWait(block.call, None, place, in_thread=False)
-        told = SetUpWait(replace(block, chain=()), wait, in_handler=True)
-        world.set_up.setdefault((block.call, place, handler.place), told)
+        own = SetUpWait(replace(block, chain=()), wait, in_handler=True)
+        world.set_up.setdefault((block.call, place, handler.place), own)
 
 
 def _beside(handler: Value, place: Place) -> ActivityState:

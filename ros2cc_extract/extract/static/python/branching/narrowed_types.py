@@ -12,7 +12,7 @@ import ast
 from ros2cc_extract.extract.static.python.branching.open_tests import is_assigned_later
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.path_facts import Answer, Facts, Told, Word
+from ros2cc_extract.extract.static.python.machine.path_facts import Answer, Facts, Implied, Word
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
     Const,
@@ -24,7 +24,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 
 
-def told(
+def answer_of(
     machine: Machine, node: ast.Call, function: Value, call: Call, result: Value, frame: Frame
 ) -> Value:
     """The answer of ``isinstance``, with what it shows about its first argument."""
@@ -40,7 +40,9 @@ def told(
         return result
     frame.narrowed |= {text}
     return Answer(
-        result.unknown, node, Told(knows=frozenset(facts[True]), knows_not=frozenset(facts[False]))
+        result.unknown,
+        node,
+        Implied(knows=frozenset(facts[True]), knows_not=frozenset(facts[False])),
     )
 
 

@@ -96,7 +96,7 @@ class Comprehensions(Machine):
         unsure: Unknown | None = None
         for condition in generator.ifs:
             holds = open_tests.decide(self, condition, frame)
-            self.world.assume(path_facts.told_by(self.world.tested), holds=True)
+            self.world.assume(path_facts.implied_by(self.world.tested), holds=True)
             if holds is False:
                 return False, None
             if holds is None:

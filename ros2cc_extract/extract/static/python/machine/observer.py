@@ -13,7 +13,7 @@ from contextlib import AbstractContextManager, nullcontext
 
 from ros2cc_extract.extract.static.python.machine.dependences import NOTHING_ASKED, Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.path_facts import Told
+from ros2cc_extract.extract.static.python.machine.path_facts import Implied
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption
 from ros2cc_extract.extract.static.python.values.values import (
@@ -101,8 +101,8 @@ class Observer:
     def note_lock_method(self, owner: Value, name: str) -> None:
         """A method of ``owner`` has run that is called like one of a lock."""
 
-    def begin_loop(self, node: ast.While, frame: Frame, told: Told | None) -> object:
-        """Begin a ``while`` whose test shows ``told``; ``end_loop`` is given the result."""
+    def begin_loop(self, node: ast.While, frame: Frame, implied: Implied | None) -> object:
+        """Begin a ``while`` whose test shows ``implied``; ``end_loop`` is given the result."""
         return None
 
     def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:

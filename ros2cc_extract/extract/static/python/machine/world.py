@@ -15,7 +15,7 @@ from typing import TypeVar
 
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
-from ros2cc_extract.extract.static.python.machine.path_facts import Told, Word
+from ros2cc_extract.extract.static.python.machine.path_facts import Implied, Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
 from ros2cc_extract.extract.static.python.values.values import (
     Class,
@@ -221,10 +221,12 @@ class World:
     def begin_outermost_loop(self) -> None:
         """A loop begins that stands in no other one."""
 
-    def assume(self, told: Told | None, *, holds: bool) -> None:
+    def assume(self, implied: Implied | None, *, holds: bool) -> None:
         """From here on a test has come out so."""
-        if told is not None:
-            self.ready |= told.holds | told.knows if holds else told.fails | told.knows_not
+        if implied is not None:
+            self.ready |= (
+                implied.holds | implied.knows if holds else implied.fails | implied.knows_not
+            )
 
     def assume_picked(self, collection: Value, item: Value) -> None:
         """An item is taken out of a collection into which it was picked for what it answered."""

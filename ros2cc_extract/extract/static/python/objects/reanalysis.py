@@ -65,8 +65,8 @@ def _site(world: World, cls: Class | Library, place: Place) -> object:
 def _both(
     before: list[Effect], again: list[Effect], name: Callable[[Effect], object]
 ) -> list[Effect]:
-    told = {(effect.source, effect.chain, name(effect)) for effect in again}
-    kept: list[Effect] = [d for d in before if (d.source, d.chain, name(d)) not in told]
+    replaced = {(effect.source, effect.chain, name(effect)) for effect in again}
+    kept: list[Effect] = [d for d in before if (d.source, d.chain, name(d)) not in replaced]
     return sorted(kept + again, key=_way) if kept else again
 
 

@@ -35,7 +35,7 @@ def published_meanwhile(end: End, publisher: Instance, world: RosWorld) -> Itera
     for use in world.ends:
         is_of_it = use.kind == PUBLISHED and use.what is publisher
         if is_of_it and _may_meet(end, use):
-            yield _told(end, use, publisher)
+            yield _diagnostic(end, use, publisher)
             return
 
 
@@ -88,7 +88,7 @@ def _may_overlap(one: EntityState, other: EntityState) -> bool:
     return is_known and executors[0].state.threads != 1 and not is_shut
 
 
-def _told(end: End, use: End, publisher: Instance) -> Diagnostic:
+def _diagnostic(end: End, use: End, publisher: Instance) -> Diagnostic:
     state = publisher.state
     key = state.key if isinstance(state, PlainState) else None
     name = f' of {key.value!r}' if isinstance(key, Const) else ''

@@ -76,11 +76,11 @@ def _by_callbacks(world: RosWorld) -> Iterator[Diagnostic]:
                 is_same = _asks_the_same((spin.how, spin.timeout), (each.how, each.timeout))
                 other = f'it is spun by {spin.how} as well ({spin.place})'
                 yield _spun_twice(each.executor, each.how, each.place, other, is_same)
-    told: set[int] = set()
+    reported: set[int] = set()
     for one, rival in (*combinations(inside, 2), *zip(inside, inside, strict=True)):
-        is_told = id(one.entity) in told and id(rival.entity) in told
-        if one.executor is rival.executor and not is_told and may_overlap(one, rival):
-            told |= {id(one.entity), id(rival.entity)}
+        is_reported = id(one.entity) in reported and id(rival.entity) in reported
+        if one.executor is rival.executor and not is_reported and may_overlap(one, rival):
+            reported |= {id(one.entity), id(rival.entity)}
             is_same = _asks_the_same((one.how, one.timeout), (rival.how, rival.timeout))
             words = f'another callback, which may run at the same time, does too ({rival.place})'
             if one is rival:

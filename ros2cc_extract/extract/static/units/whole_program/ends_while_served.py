@@ -58,11 +58,11 @@ _GOING = frozenset({'exit', '_exit', 'quit', 'shutdown', 'try_shutdown'})
 
 def note_ends(world: RosWorld) -> None:
     """Report, after all was followed, what is no longer served."""
-    found = (diagnostic for end in world.ends for diagnostic in _told(end, world))
+    found = (diagnostic for end in world.ends for diagnostic in _diagnostics(end, world))
     world.diagnostics.extend(dict.fromkeys(found))
 
 
-def _told(end: End, world: RosWorld) -> Iterator[Diagnostic]:
+def _diagnostics(end: End, world: RosWorld) -> Iterator[Diagnostic]:
     doer = end.doer
     if isinstance(doer, EntityState):
         if end.kind == USED:

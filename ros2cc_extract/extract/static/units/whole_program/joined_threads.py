@@ -79,18 +79,16 @@ def never_joined(
             goes_round = goes_round or asks_again or comes_back(block, state, world)
             # Who is behind its only loop is behind what it asks in that.
             passed = (block, *around) if asks_again and len(around) == 1 else (block,)
-            has_told = any(has_told_of_it(each, state, wait, world) for each in passed)
-            goes_round = goes_round and not has_told
+            was_reported = any(is_reported(each, state, wait, world) for each in passed)
+            goes_round = goes_round and not was_reported
             if goes_round or not (wait.is_late or block.conditional):
                 why = why_for_ever(block, state, wait, world, spun)
                 if why is not None:
-                    yield _told(wait, block, why)
+                    yield _diagnostic(wait, block, why)
                     return
 
 
-def has_told_of_it(
-    block: Blocking, state: ActivityState, wait: OutsideWait, world: RosWorld
-) -> bool:
+def is_reported(block: Blocking, state: ActivityState, wait: OutsideWait, world: RosWorld) -> bool:
     """
     Whether the thread was behind the wait ``block`` by then, for good.
 
@@ -233,7 +231,7 @@ def _leaves(state: ActivityState) -> bool:
 _NOT_SPUN = 'and nothing spins the node whose callback would end that'
 
 
-def _told(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
+def _diagnostic(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
     at = f' ({block.source})' if block.source is not None else ''
     when = '' if why != _NOT_SPUN else ' any more' if wait.is_late else ' meanwhile'
     may = 'it may wait' if wait.is_late else 'it waits'

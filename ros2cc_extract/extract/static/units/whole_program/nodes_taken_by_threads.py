@@ -23,8 +23,8 @@ _TAKES = 'rclpy.'
 
 def note_taken_by_threads(world: RosWorld) -> None:
     """Report, after all was followed, nodes that a thread takes out of an executor."""
-    told = {each.place for each in world.diagnostics if each.slug == SLUG}
-    found = (each for each in _thefts(world) if each.place not in told)
+    reported = {each.place for each in world.diagnostics if each.slug == SLUG}
+    found = (each for each in _thefts(world) if each.place not in reported)
     world.diagnostics.extend(dict.fromkeys(found))
 
 
@@ -35,7 +35,7 @@ def _thefts(world: RosWorld) -> Iterator[Diagnostic]:
             continue
         for other in spins:
             if _is_beside(spin, number, other) and any(_robbed(spin, other)):
-                yield _told(spin, other)
+                yield _reported(spin, other)
                 break
 
 
@@ -54,7 +54,7 @@ def _robbed(spin: Spin, other: Spin) -> Iterator[bool]:
     yield from (node in served for node in spin.nodes)
 
 
-def _told(spin: Spin, other: Spin) -> Diagnostic:
+def _reported(spin: Spin, other: Spin) -> Diagnostic:
     name = other.executor.hint or 'the executor'
     kind = getattr(other.executor.state, 'kind', 'executor')
     return Diagnostic(

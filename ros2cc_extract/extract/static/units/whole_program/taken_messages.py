@@ -29,7 +29,7 @@ from ros2cc_extract.spec.model import GroupType
 
 def note_taken(world: RosWorld) -> None:
     """Report, after all was followed, waits whose message the node's executor may take."""
-    found = (_told(wait) for wait in world.message_waits if _is_taken(wait, world))
+    found = (_diagnostic(wait) for wait in world.message_waits if _is_taken(wait, world))
     world.diagnostics.extend(dict.fromkeys(found))
 
 
@@ -70,7 +70,7 @@ def _spins_before_its_end(wait: MessageWait, world: RosWorld) -> int | None:
     return min(joins, default=None)
 
 
-def _told(wait: MessageWait) -> Diagnostic:
+def _diagnostic(wait: MessageWait) -> Diagnostic:
     who = 'another thread spins'
     if wait.by is not None:
         who = 'another thread of its executor serves'

@@ -54,7 +54,7 @@ def kept_at_exit(world: RosWorld, spun_beside: Serving) -> Iterator[Diagnostic]:
             )
             block = _stuck_block(state, exit_wait, world, spun_beside(exit_wait))
             if block is not None:
-                yield _told(state, block)
+                yield _diagnostic(state, block)
                 break
 
 
@@ -146,7 +146,7 @@ def _daemon(state: ActivityState) -> str:
     return 'run it in a daemon thread' if is_pool else 'start it with daemon=True'
 
 
-def _told(state: ActivityState, block: Blocking) -> Diagnostic:
+def _diagnostic(state: ActivityState, block: Blocking) -> Diagnostic:
     at = f' ({block.source})' if block.source is not None else ''
     return Diagnostic(
         severity=Severity.WARNING,

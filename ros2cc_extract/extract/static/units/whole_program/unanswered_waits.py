@@ -36,15 +36,15 @@ def note_unanswered(world: RosWorld) -> None:
     """Report, after all was followed, waits whose answer nobody can take or give."""
     if any(_may_be_spun_elsewhere(node) for node in world.nodes):
         return
-    told = [each for wait in world.outside for each in _told(wait, world)]
-    worst = {each.place for each in told if each.severity is Severity.ERROR}
+    reported = [each for wait in world.outside for each in _diagnostics(wait, world)]
+    worst = {each.place for each in reported if each.severity is Severity.ERROR}
     world.diagnostics.extend(
-        each for each in told if each.severity is Severity.ERROR or each.place not in worst
+        each for each in reported if each.severity is Severity.ERROR or each.place not in worst
     )
     world.diagnostics.extend(kept_at_exit(world, lambda wait: tuple(spun_beside(wait, world))))
 
 
-def _told(wait: OutsideWait, world: RosWorld) -> Iterator[Diagnostic]:
+def _diagnostics(wait: OutsideWait, world: RosWorld) -> Iterator[Diagnostic]:
     if isinstance(wait.client, Instance):
         yield from _unended(wait, wait.client, world)
         return

@@ -39,7 +39,7 @@ def entity_made_before(
     is_again = world.when is When.CALLBACK and known.state.when is When.CALLBACK
     if (
         not is_again
-        and not world.retelling
+        and not world.second_pass
         and not _made_while_missing(world, known.state, key, callback)
     ):
         return None

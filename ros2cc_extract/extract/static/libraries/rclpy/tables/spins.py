@@ -102,7 +102,7 @@ def _spin_node(
     is_for_library: bool = False,
 ) -> None:
     node = as_node(machine, node_value)
-    if node is None or machine.world.retelling:
+    if node is None or machine.world.second_pass:
         return
     call, moved, change = _nested(machine, node, given, how)
     if machine.note_nested_spin(call, moved, given, future, place, change):
