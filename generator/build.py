@@ -153,7 +153,7 @@ def render_alone(
     watched: str | None = None,
 ) -> ModelAlone:
     """
-    Write the model of ``closed`` for somebody who asks the queries without reading them there.
+    Write the model of ``closed`` for a caller that asks the queries separately.
 
     :param max_cycle: as for ``render``.
     :param watched: a formula over the global variables of the plain text. The model then has a
@@ -215,7 +215,7 @@ def _write_xml(
     sources = choose_sources(profile, text, unit)
     in_play = CALLBACKS_IN_PLAY if unit.max_cycle else CALLBACKS_IN_PLAY_FOR_EVER
     if unit.has_spins or unit.has_foreign or unit.has_absent:
-        in_play = len(unit.callbacks)  # whom a nested spin serves may matter, be they many
+        in_play = len(unit.callbacks)  # all that a nested spin serves may matter
     values = {
         'unit': unit,
         **features,
@@ -299,7 +299,7 @@ def _fill(template: str, **values: object) -> str:
 
 @cache
 def _environment() -> Environment:
-    # Imported late: who reads kept verdicts starts faster without.
+    # Imported late: reading kept verdicts starts faster without it.
     from ros2cc_extract.generator.templates import environment
 
     return environment()

@@ -1,5 +1,5 @@
 """
-Nested spins: what a callback that spins an executor waits for, and whom it serves meanwhile.
+Nested spins: what a callback that spins an executor waits for, and what it serves meanwhile.
 
 Sources: rclpy 7.1.6 and 9.1.2, ``__init__.py`` (``spin_until_future_complete`` adds the node to
 the global executor and takes it out afterwards), ``node.py`` (the setter of ``executor`` takes a
@@ -156,7 +156,7 @@ def _nested_spin(
 
 
 def _setter(future: Blocking, callback: Callback, spec: Spec) -> str | None:
-    """The one callback that makes a future done; a done-callback is none, it waits itself."""
+    """The one callback that makes a future done; not a done-callback, which waits itself."""
     found = next((c for c in spec.callbacks if c.name == future.on), None)
     is_other = found is not None and found.name != callback.name
     return found.name if found and is_other and not client_before(found, spec.callbacks) else None

@@ -16,7 +16,7 @@ from ros2cc_extract.spec.effects import Blocking, Waker
 
 
 class WaitKind(Enum):
-    """What a callback keeps while it waits, and who ends the wait."""
+    """What a callback keeps while it waits, and what ends the wait."""
 
     HELD = 'the thread is held until another callback has run'
     AWAITED = 'the thread is freed, the group is held'
@@ -47,7 +47,7 @@ class Resource:
     :param initial: how many waits end without a signal.
     :param least: of what ends for good, how many signals that takes.
     :param forgets: a signal is lost while nobody waits.
-    :param given_by: of what ends for good, who ends it, and where: what ends one wait for it may
+    :param given_by: of what ends for good, what ends it, and where: what ends one wait for it may
         come too early for another.
     """
 
@@ -71,7 +71,7 @@ class NamedWait:
     :param resource: that it waits for, or gives a signal to.
     :param begun: starts of which one must have been given: what is waited for is not there before.
     :param may_skip: a branch may skip it; of a signal, then nobody knows whether it comes.
-    :param is_open: somebody whom the model does not have may end it, or nobody does.
+    :param is_open: something that the model does not have may end it, or nothing does.
     :param origin: place in the specification, with ``block`` or ``waker``.
     """
 

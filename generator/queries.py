@@ -271,7 +271,7 @@ def _progress(callback: UnitCallback, unit: Unit) -> Query:
 
 
 def _none_blocked(unit: Unit) -> str:
-    """Say that no activity waits, of those about whose waits all is known."""
+    """Say that no activity waits, of those whose waits are all known."""
     blocked = ' or '.join(f'{a.name}.blocked' for a in unit.activities if a.is_asked)
     return f' and not ({blocked})' if blocked else ''
 

@@ -1,7 +1,7 @@
 """
-Waits whose wakers the specification names: what they are for, and who ends them.
+Waits whose wakers the specification names: what they are for, and what ends them.
 
-A wait that time or somebody outside ends is none in the model, which has no clock: the callback
+A wait that time or code outside ends is not in the model, which has no clock: the callback
 that waits runs on. One that somebody unknown may end is open: it may be left at any moment, and
 it may stay until a waker that is known ends it.
 """
@@ -20,7 +20,7 @@ from ros2cc_extract.spec.effects import AWAIT, OUTSIDE, TIME, Blocking, Needs, W
 from ros2cc_extract.spec.model import Activity, Callback, CallbackType, GroupType, Spec
 
 Actor = Callback | Activity
-#: Whose names stand for nobody of the unit.
+#: Names that stand for nothing in the unit.
 _BY_ITSELF = (OUTSIDE, TIME)
 # Waits for the end of a run, which nobody can wait for before it has been started: a thread that
 # was not refuses to be joined, and a future of a job is made with the job.
@@ -68,7 +68,7 @@ def may_pass_unseen(block: Blocking, callback: Callback, spec: Spec) -> bool:
 
     In a pool they run at the same time. On one thread the work of an entity makes two laps
     begin, and each asks the coroutines in turn: it takes two tasks, one ended by the other, of
-    which each is asked behind who waits for it, as one that was made before.
+    which each is asked after what waits for it, as one that was made before.
     """
     kind = executor_kind(spec)
     enders = [ender for ender in _tasks_that_end(block, spec) if ender.name != callback.name]
@@ -252,7 +252,7 @@ def concerns_others(activity: Activity, spec: Spec) -> bool:
 
 @once
 def _wake_or_start(spec: Spec) -> frozenset[str]:
-    """Who ends waits of others, or starts activities."""
+    """What ends waits of others, or starts activities."""
     blocks = (block for actor in all_actors(spec) for block in actor.blocking)
     wakers = {w.by for block in blocks if goes_by_wakers(block, spec) for w in block.wakers}
     return frozenset(wakers | {waker.by for other in spec.activities for waker in other.starts})

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Profile(Enum):
-    """Whose executor the model describes."""
+    """The profile of the model: which executor it describes."""
 
     PAPER = 'paper'
     RCLPY = 'rclpy'

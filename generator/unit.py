@@ -100,7 +100,7 @@ class UnitResource:
     What callbacks wait for and give signals to.
 
     :param most: how many signals are kept; more would end no more waits.
-    :param forgets: they are kept for those alone who wait already.
+    :param forgets: they are kept only for those that wait already.
     :param least: so many must be there before a wait ends.
     """
 
@@ -335,7 +335,7 @@ class Unit:
 
 
 def _arrivals(closed: ClosedSpec, actors: Iterable[str], max_cycle: int | None) -> dict[str, int]:
-    """How often each becomes ready, where there is a bound: who runs once only once."""
+    """How often each becomes ready, if there is a bound: what runs once only once."""
     if not max_cycle:
         return dict.fromkeys(actors, 1)
     once = {callback.name: 1 for callback in closed.spec.callbacks if callback.one_shot}

@@ -303,7 +303,7 @@ def is_absent(block: Blocking, spec: Spec) -> bool:
 
 @once
 def _asked_for_answers(spec: Spec) -> frozenset[str]:
-    """Of whom callbacks wait for more than that somebody is there."""
+    """The partners that callbacks wait for, other than waits until a service is there."""
     blocks = (block for callback in spec.callbacks for block in callback.blocking)
     return frozenset(b.on for b in blocks if isinstance(b.on, str) and not asks_the_graph(b))
 

@@ -165,7 +165,7 @@ def too_large(path: Path, most_bytes: int) -> OSError:
 
 
 def _mode(path: Path) -> int | None:
-    """Kind of the file at ``path``; ``None`` where there is none."""
+    """Kind of the file at ``path``; ``None`` if there is no file."""
     try:
         return os.stat(path).st_mode  # noqa: PTH116  a third of the time that Path.stat() takes
     except OSError as error:

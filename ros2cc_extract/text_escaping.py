@@ -148,5 +148,5 @@ class Shown:
 
 
 def raw(stream: TextIO) -> TextIO:
-    """Give the stream behind: for who draws on a terminal, and shows what is foreign himself."""
+    """Return the stream behind: for code that draws on a terminal, and escapes text itself."""
     return stream.raw if isinstance(stream, Shown) else stream

@@ -110,7 +110,7 @@ def _run(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
 def entry_point() -> None:
     """Run as the console script."""
     gc.set_threshold(OBJECTS_BEFORE_COLLECTING)
-    # Who started us may not wait for children; we do, and need to know how they ended.
+    # The process that started us may ignore its children; we need to know how ours ended.
     if signal.getsignal(signal.SIGCHLD) is signal.SIG_IGN:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     status = with_streams(lambda stdout, stderr: main(sys.argv[1:], stdout, stderr))

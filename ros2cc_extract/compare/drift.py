@@ -112,7 +112,7 @@ def _of_named(
 
 
 def _of_order(unit: str, before: Sequence[Callback], now: Sequence[Callback]) -> Iterator[Drift]:
-    """Creation order decides who is served first, and so who starves."""
+    """Compare creation order: it decides which is served first, and so which starves."""
     old, new = ([each.name for each in side] for side in (before, now))
     kept_before = tuple(name for name in old if name in new)
     kept_now = tuple(name for name in new if name in old)

@@ -354,7 +354,7 @@ def _plain(fact: object) -> object:
 
 
 def _diff_groups(left: Spec, right: Spec, pairs: Sequence[Pair]) -> Iterator[Difference]:
-    """Compare groups by what they are and by who shares one; their names do not matter."""
+    """Compare groups by type and by which callbacks share one; their names do not matter."""
     partner: dict[str, str] = {}
     owner: dict[str, str] = {}
     for mine, theirs in pairs:
@@ -411,7 +411,7 @@ def _may_be_missing(callback: Callback) -> bool:
 
 
 def _missing_unit(unit: Spec, kind: Kind) -> Difference:
-    """A class that nobody in sight makes or spins proves nothing by not being there."""
+    """Whether no known code makes or spins a class: then its absence proves nothing."""
     written = [callback for callback in unit.callbacks if not callback.builtin]
     is_left = kind is Kind.ONLY_LEFT
     nodes = ', '.join(unit.nodes)

@@ -35,7 +35,7 @@ def sample_of(process: int, row: Row) -> Sample:
     """
     Read two looks and judge them.
 
-    :raises ValueError, KeyError, TypeError, AttributeError: where they are none.
+    :raises ValueError, KeyError, TypeError, AttributeError: if they are invalid.
     """
     before, after = map(look_of, row['looks'])
     found = explain(process, (before, after))

@@ -287,7 +287,7 @@ def read_schedule(path: Path) -> Schedule:
     """
     Read a schedule that was kept.
 
-    :raises InputError: where the file is none.
+    :raises InputError: if the file is not a schedule.
     """
     try:
         row = read_json(read_regular(path, _MOST_BYTES))

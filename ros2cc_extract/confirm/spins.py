@@ -16,7 +16,7 @@ _EXCEPTIONS = {
     'CC113': ('TypeError',),
     'CC114': ('RuntimeError',),
 }
-# A response that is none, as a coroutine: without a word (``service.py``).
+# No valid response, such as a coroutine: the error has no message (``service.py``).
 _RAISED_BY = {'CC113': 'send_response'}
 _WORDS = {'CC107': ('generator already executing', 'already spinning'), 'CC113': ('coroutine',)}
 

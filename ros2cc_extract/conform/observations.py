@@ -202,7 +202,7 @@ def with_unreported_tasks(seen: Sequence[Observation], spec: Spec) -> tuple[Obse
 
 def with_groups(seen: Sequence[Observation], spec: Spec) -> tuple[Observation, ...]:
     """
-    Say whose exclusive group a begin closes and an end opens.
+    Name the exclusive groups that a begin closes and an end opens.
 
     The hook reads the clock after a group let a callback begin, and before it learns of an end
     (``extract/live/hook/groups.py``): by the clock these never overlap where the group is kept.

@@ -210,7 +210,7 @@ def follow(model: ObservedModel, packed: int, observation: Observation) -> Itera
         wanted = frozenset({observation.callback})
     states: Iterable[int] = unseen(model, packed, wanted)
     if observation.act is Act.WAKE and model.has_tasks:
-        # Who spins hands over all tasks before it waits; the model would do with one of a kind.
+        # A spin hands over all tasks before it waits; the model would do with one of a kind.
         states = sorted(states, key=model.unserved_tasks)
     for state in states:
         if observation.act is Act.WAKE and not _are_waiting(model, state, observation.found):

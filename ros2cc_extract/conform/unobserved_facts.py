@@ -1,5 +1,5 @@
 """
-What a specification does not say about an execution that is none of its paths.
+What a specification does not say about an execution that is not one of its paths.
 
 A live run does not see what a coroutine awaits, nor that a callback spins; source may not know a
 group. Then it is not the model that is wrong: nothing is decided.

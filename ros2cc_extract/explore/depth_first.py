@@ -52,7 +52,7 @@ class Dependence:
                 self.locks
             ):
                 return True
-            # Where a lock is given back is no step: who waits for it goes on then.
+            # Releasing a lock is no step: the thread that waits for it goes on then.
             return (kind, name) == (other_kind, other_name)
         return name == other_name and 'write' in (kind, other_kind)
 
@@ -88,8 +88,8 @@ class _Branch:
     """
     A moment at which somebody was chosen.
 
-    :param enabled: who might have been.
-    :param sleeping: who need not be.
+    :param enabled: those that could be chosen.
+    :param sleeping: those that need not be chosen.
     """
 
     enabled: tuple[Step, ...]

@@ -98,7 +98,7 @@ def read_found(path: Path) -> tuple[Scenario, Found]:
     """
     Read a failure that was written.
 
-    :raises InputError: where the file is none.
+    :raises InputError: if the file is not a scenario.
     """
     try:
         row = read_json(read_regular(path, _MOST_BYTES))

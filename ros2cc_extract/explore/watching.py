@@ -22,7 +22,7 @@ from ros2cc_extract.explore.scenario import Scenario, plan_text
 from ros2cc_extract.extract.live.exploring.exploration import VARIABLE
 from ros2cc_extract.light_dataclasses import dataclass
 
-# For an import of large packages, the discovery of DDS, and who offers what is asked for.
+# For an import of large packages, the discovery of DDS, and the offers of what is asked for.
 START_S = 40.0
 # Beyond its own seconds: letting go, and looking at what stands.
 _MORE_S = 12.0
@@ -36,8 +36,8 @@ class Seen:
     """
     What came of one schedule.
 
-    :param choices: who was chosen, and where it stood.
-    :param choosable: among whom.
+    :param choices: the chosen threads, and where each stood.
+    :param choosable: the candidates.
     :param rounds: after how many choices nobody was at work.
     :param seconds: from its begin to its end.
     """

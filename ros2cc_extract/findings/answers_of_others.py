@@ -22,7 +22,7 @@ def waited_until_there(
     A request that is sent before its server is known is lost, and nobody answers it.
 
     :param earlier: what the same callback waits for.
-    :param client: whom it asks.
+    :param client: the client that it asks by.
     """
     return block.call in UNTIL_THERE or any(
         each.call in UNTIL_THERE and each.on == client.name for each in (*unit.set_up, *earlier)

@@ -234,7 +234,7 @@ def _copies(unit: Spec) -> Iterator[str]:
 
 
 def _overload(unit: Spec) -> Iterator[str]:
-    """Who may be kept waiting where more arrives than one run of each callback."""
+    """The callbacks that may wait if more arrives than one run of each callback."""
     demands = demands_of(unit)
     for callback in unit.callbacks:
         if callback.builtin:

@@ -39,7 +39,7 @@ _FAMILIES = (DEADLOCK, PROGRESS)
 @dataclass
 class _Offers:
     """
-    Who offers what.
+    Which node offers what.
 
     :param are_all: nobody else may.
     :param names: identities of the units, in the order of the judgements.

@@ -160,7 +160,7 @@ _FEELS: tuple[tuple[Behaviour, Feels], ...] = (
     (THREADS_BY_AFFINITY, _default_threads),
     (SPIN_YIELDS, _pool),
 )
-"""Rows that no verdict rests on, and who feels them."""
+"""Rows that no verdict rests on, and the code that they affect."""
 _OF_IDLE = ((UNTIL_ASKS_FUTURE, _spun_until),)
 _ONCE = frozenset({SPIN_YIELDS})
 """Rows that are listed at one place of a program, since all its pools feel them alike."""

@@ -29,7 +29,7 @@ def findings_of_joined(joined: Joined, verification: Verification | None) -> tup
     def concerns(together: Sequence[Stuck]) -> bool:
         doers = [each.doer for each in together]
         names = [each.name for each in doers]
-        if joined.is_of_processes:  # who answers may be kept from it by others of its process
+        if joined.is_of_processes:  # others of its process may keep the server from answering
             names += [name for each in together for name in each.enders]
         # The threads of a joined unit are no number of the program's.
         is_by_crowd = any(is_of_repeated(doer, context) for doer in doers)

@@ -100,7 +100,7 @@ def _asked(
 
 
 def _snapshot(standing: Sequence[StandingRun]) -> str:
-    """All of it is there at once; only who waits asks, and only who waits counts as a waiter."""
+    """All of it is there at once; only what waits asks, and only what waits counts as a waiter."""
     found = []
     for run in standing:
         who = run.callback

@@ -157,7 +157,7 @@ class _Needed:
         return (e for e in self.look.entities.values() if e.number in self.executor.entities)
 
     def _holders(self, lock: int) -> tuple[int, ...]:
-        """Give whose callbacks hold a lock; each of them waits itself."""
+        """Return the callbacks that hold a lock; each of them waits itself."""
         owner = self.look.objects.get(lock, {}).get('owner')
         holders = tuple(
             number
@@ -247,7 +247,7 @@ class _Needed:
         )
 
     def _wakers(self, numbers: Iterable[int], after: int | None) -> tuple[Waker, ...]:
-        """``after`` its own wait, as who holds a lock and waits; else at its end."""
+        """``after`` its own wait, if it holds a lock and waits; else at its end."""
         return tuple(Waker(by=self.names[n], after=after) for n in dict.fromkeys(numbers))
 
     def _standing(self) -> Iterator[StandingRun]:

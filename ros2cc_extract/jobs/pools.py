@@ -21,11 +21,11 @@ Answers = Generator[tuple[int, Answer], None, None]
 
 
 class Pool(Protocol):
-    """Who does jobs."""
+    """What does jobs."""
 
     @property
     def is_remote(self) -> bool:
-        """Whether others do them, who share no memory and no files with this process."""
+        """Whether others do them, which share no memory and no files with this process."""
 
     @property
     def size(self) -> int:

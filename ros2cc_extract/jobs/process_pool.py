@@ -48,7 +48,7 @@ class ProcessPool(Generic[Request, Answer]):
     """
     Children that answer requests; use as a context manager.
 
-    :param answer: runs in a child, or here where there is none.
+    :param answer: runs in a child, or here if there is none.
     :param size: number of children; none are made for one.
     """
 

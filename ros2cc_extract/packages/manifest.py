@@ -38,7 +38,7 @@ def read_package(folder: Path) -> Package:
     """
     Read the manifest of a package.
 
-    :raises InputError: when there is none, or it is no package manifest.
+    :raises InputError: if there is none, or it is no package manifest.
     """
     path = folder / MANIFEST
     try:

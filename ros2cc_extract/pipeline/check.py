@@ -228,7 +228,7 @@ def _units_of(job: Job, extraction: Extraction) -> tuple[tuple[Spec, ...], list[
         for unit in extraction.units
         if job.policy.builtin or _has_callbacks(unit)
     ]
-    pairs = zip(units, with_arrivals(units), strict=True)  # who sends may be in another shard
+    pairs = zip(units, with_arrivals(units), strict=True)  # the sender may be in another shard
     own = [pair for pair in pairs if job.shard is None or job.shard.holds(pair[0])]
     # Verdicts that nobody will see are not asked for.
     options = job.options if job.shows_verdicts else judging_options(job.options)

@@ -71,7 +71,7 @@ class Result:
 
     @property
     def found(self) -> Counter[str]:
-        """Its counts, 0 where there is none."""
+        """Its counts, 0 where it has none."""
         return Counter(self.summary)
 
 

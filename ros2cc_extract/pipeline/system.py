@@ -199,7 +199,7 @@ def _given(launched: Launched, nodes: Sequence[SystemNode]) -> GivenParameters:
 
 
 def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
-    """The Python file of a process, or why there is none."""
+    """The Python file of a process, or why it has none."""
     if launched.kind in _NO_CODE:
         return Unknown(f'a {launched.kind} node is no Python', launched.source)
     if launched.kind == 'process':
@@ -224,7 +224,7 @@ def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
 
 
 def _not_found(package: str, name: str, started: Launch) -> str:
-    """Why an executable is not in sight: nothing declares it, or that could not be read."""
+    """Why an executable is not known: nothing declares it, or that could not be read."""
     why = f'executable {name} was not found among what package {package} installs'
     unread = started.packages.unread(package)
     return f'{why}, of which not all could be read: {unread[0]}' if unread else why

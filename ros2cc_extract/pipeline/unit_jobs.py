@@ -98,7 +98,7 @@ def examine_all(
     :param folder: cache of earlier answers.
     :param meter: shows how many units are done; the states too where they are verified here.
     :param deadline: for all of them; what is not decided by then is undecided.
-    :param pool: who verifies, by default the cores of this machine.
+    :param pool: what runs the searches, by default the cores of this machine.
     :param known: answers of others by ``Task.key``; where they are given, nothing is verified.
     :param interrupted: it was ended before: only what the cache has is reported.
     """

@@ -1,7 +1,7 @@
 """
 What code does while it runs: it waits, wakes others, takes locks, reads and writes.
 
-The same values describe callbacks and activities; ``model.py`` says whose they are.
+The same values describe callbacks and activities; ``model.py`` says which.
 """
 
 from __future__ import annotations
@@ -51,13 +51,13 @@ AWAIT = 'await'
 """How a coroutine waits; with a blank and a name behind it, in an operation of asyncio."""
 
 ENDLESS_LOOP = 'endless loop'
-"""A loop that nothing in sight leaves."""
+"""A loop that no known code leaves."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Waker:
     """
-    Who can end a wait, and where.
+    What can end a wait, and where.
 
     :param by: name of a callback or an activity of the unit, ``OUTSIDE`` (another process, the
         operating system) or ``TIME``.
@@ -90,7 +90,7 @@ class Blocking:
     :param held: locks held meanwhile, outermost first; one that its holder may take once more, as
         an ``RLock``, ends in ``RE_ENTRANT``.
     :param resource: name of the object waited on, equal for all waits on one object.
-    :param wakers: who can end it, as far as is known.
+    :param wakers: what can end it, as far as is known.
     :param needs: ``ONCE``: one waker, for good (event, future, end of a thread); ``EACH``: one
         waker for each wait (condition, queue, semaphore); ``ALL``: every waker (barrier, several).
     :param signals: of ``ONCE``: how many of them, or how often one, as of a number that grows.
@@ -99,7 +99,7 @@ class Blocking:
     :param initial: of ``EACH``, how many waits end without a waker: the value of a semaphore, the
         room in a queue. With ``escapes`` runs before may have used them up.
     :param counted: a model has runs enough to use up ``initial``; no specification says so.
-    :param escapes: why somebody else might end it too, or who ends it is not known.
+    :param escapes: why unknown code might end it too, or what ends it is not known.
     :param conditional: true where a branch may skip the wait.
     :param only_if: what leads there, where a parameter decides and its default does not.
     :param assumed: the rule by which ``seconds`` was assumed.

@@ -145,7 +145,7 @@ def _reached(part: _Part, ahead: Mapping[_Part, set[_Part]]) -> set[_Part]:
 
 
 def _needs(spec: Spec, part_of: Mapping[str, _Part]) -> Iterator[tuple[_Part, _Part]]:
-    """Who needs whom: to be answered or woken, or to let go of a lock."""
+    """Which needs which: to be answered or woken, or to release a lock."""
     doers = _doers(spec)
     for doer in doers:
         mine = part_of.get(doer.name, doer.name)
@@ -162,7 +162,7 @@ def _doers(spec: Spec) -> tuple[Callback | Activity, ...]:
 
 
 def enders_of(block: Blocking, spec: Spec) -> Iterator[str]:
-    """Who has to run before a wait without a time-out is over, as far as the unit has them."""
+    """What has to run before a wait without a time-out is over, as far as the unit has it."""
     if block.seconds is not None:
         return
     yield from (waker.by for waker in block.wakers)
@@ -255,7 +255,7 @@ def enough_threads(callbacks: Sequence[Callback], groups: Iterable[CallbackGroup
 
 
 def _runs(callback: Callback, callbacks: Sequence[Callback]) -> int:
-    """How often it may run at once, up to what is too much; who asks itself does so once."""
+    """How often it may run at once, up to what is too much; one that asks itself does so once."""
     number = 0
     left = [(callback, frozenset[str]())]
     while left and number <= MOST_THREADS:

@@ -272,7 +272,7 @@ class Activity:
     It is in no group and needs no worker; it waits, holds, reads and writes as callbacks do.
 
     :param kind: ``MAIN`` is the code of the program after it has started a thread that spins.
-    :param starts: who starts it and where, as wakers; empty for what runs from the beginning.
+    :param starts: what starts it and where, as wakers; empty for what runs from the beginning.
     :param count: how many of them may run at a time.
     :param conditional: a branch may skip its start.
     :param daemon: the program ends without waiting for it.
@@ -348,7 +348,7 @@ OF_LOOP = 'asyncio'
 """The library of groups that nobody makes: each is an entity that a loop serves run by run."""
 
 NO_EXECUTOR = 'no executor or spin found for this node'
-"""The reason why an executor is unknown where none is in sight."""
+"""The reason why an executor is unknown if the scan found none."""
 
 
 @dataclass(frozen=True, kw_only=True)

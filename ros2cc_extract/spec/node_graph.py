@@ -50,7 +50,7 @@ _WHAT = {
 @dataclass(frozen=True, kw_only=True)
 class Qos:
     """
-    What of a quality-of-service profile decides who is connected; times in seconds.
+    What of a quality-of-service profile decides which endpoints connect; times in seconds.
 
     :param reliability: ``reliable``, ``best_effort``; ``None`` where the middleware decides.
     :param durability: ``volatile``, ``transient_local``.

@@ -82,7 +82,7 @@ def forget(forgotten: Sequence[Forgetting], state: State, edges: Edges) -> State
 
 
 class _Usage:
-    """Who reads and writes which variable."""
+    """Which process reads and writes which variable."""
 
     def __init__(self, network: Network, predicates: Sequence[Expr]) -> None:
         self.network = network

@@ -131,7 +131,7 @@ def _family(first: int, exchanges: Sequence[_Proven]) -> Family:
 
 
 class _Finder:
-    """Proposes exchanges and proves them; knows who mentions what."""
+    """Proposes exchanges and proves them; knows which process mentions what."""
 
     def __init__(self, network: Network, predicates: Sequence[Expr]) -> None:
         self._network = network
@@ -313,7 +313,7 @@ class _Finder:
                         found.setdefault(channel, []).append((number, edge))
         return found
 
-    # -- who mentions what ---------------------------------------------------------------
+    # -- mentioned names ---------------------------------------------------------------
     def _mentioned(self, process: int) -> _Mentions:
         if process not in self._mentions:
             self._mentions[process] = _mentions(self._network, process)

@@ -58,7 +58,7 @@ def dive(
     for number, (query, prop) in enumerate(zip(queries, properties, strict=True)):
         path = paths.get(number)
         if path is not None:
-            replayer.run(prop, path, None)  # a verdict that no run shows is none
+            replayer.run(prop, path, None)  # a verdict needs a run that shows it
         answers.append(
             Answer(
                 query=query,

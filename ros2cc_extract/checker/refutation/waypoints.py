@@ -78,7 +78,7 @@ def _answer(
         None if cycle is None else cycle + len(path) - 1,
         outcome.path.end,
     )
-    replayer.run(prop, whole, None)  # a verdict that no run shows is none
+    replayer.run(prop, whole, None)  # a verdict needs a run that shows it
     replay = partial(replayer.run, prop, whole, None)
     return Answer(
         query=query,

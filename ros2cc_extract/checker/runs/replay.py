@@ -61,7 +61,7 @@ class Replayer:
         Return the path with its edges and names, in states of the model as it stands.
 
         :param reduce: what the search did to each state it reached; the path is in such states.
-        :raises CoreMismatchError: the path is none of the model, or does not show what it should.
+        :raises CoreMismatchError: the path is not in the model, or does not show what it should.
         """
         if path.states[0] != self._semantics.initial():
             raise _mismatch('it does not start in the initial state')

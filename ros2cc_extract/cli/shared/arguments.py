@@ -207,7 +207,7 @@ def add_node_arguments(parser: argparse.ArgumentParser, *, confirms: bool = Fals
 
 
 def add_dask_argument(parser: argparse.ArgumentParser, what: str) -> None:
-    """Add who verifies; ``what`` names the jobs."""
+    """Add the option for what runs the jobs, which ``what`` names."""
     parser.add_argument(
         '--dask',
         metavar='tcp://HOST:PORT',

@@ -1,5 +1,5 @@
 """
-The way into a running process, and whom it lets in.
+The way into a running process, and which user it lets in.
 
 By what the interpreter offers (Python 3.14, ``sys.remote_exec``), and where that is missing or
 refused, as it is by a process of another Python version, by our own library, which the injector
@@ -60,7 +60,7 @@ def check_process(pid: int) -> None:
 
 def user_to_enter(pid: int, *, other_user: bool) -> int:
     """
-    Who gets to read the script: ourselves, or whom we were asked to serve.
+    The user that may read the script: ourselves, or the one we were asked to serve.
 
     :raises InputError: when that is another user and nobody asked for it.
     """

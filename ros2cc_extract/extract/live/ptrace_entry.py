@@ -3,7 +3,7 @@ Our own way into a process: a small library that runs a script in a thread of it
 
 pyinjector (extra ``attach``) stops one thread of the process, lets it load the library, and lets
 it go on as it was. The library (``native/enter.c``) waits for nothing while it is loaded, in
-particular not for the lock of the interpreter: who waits for that with the linker's lock in hand
+particular not for the lock of the interpreter: a thread that waits for that with the linker's lock
 freezes a process that imports a C module at that moment. When the script has ended, the library
 is unloaded.
 """
@@ -187,7 +187,7 @@ def _work_alone(work: Callable[[], None], write: int) -> None:
         os.setsid()
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, signal.SIG_IGN)
-        # Who reads our output must not wait for a child that stays.
+        # The reader of our output must not wait for a child that stays.
         nothing = os.open(os.devnull, os.O_RDWR)
         for stream in range(3):
             os.dup2(nothing, stream)

@@ -21,7 +21,7 @@ from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.results import Verification
 
 Doer = Callback | Activity
-"""Who waits, reads and writes: a callback, or a thread of the program's own."""
+"""What waits, reads and writes: a callback, or a thread of the program's own."""
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,7 @@ def joined(
 
 
 def message_of(joint: JoinedRaces) -> str:
-    """Say who may overlap, when, and what becomes of the attributes."""
+    """Say which runs may overlap, when, and what becomes of the attributes."""
     names = listing(joint.names, limit=4)
     is_one = len({called(callback) for callback in joint.callbacks}) == 1
     itself, has, s = ('itself', 'it has', 's') if is_one else ('themselves', 'they have', '')

@@ -405,7 +405,7 @@ def _may_be_lost(update: Use, rival: Use) -> bool:
 
 
 def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
-    """A lock helps only who keeps it from what was read to what is written because of that."""
+    """A lock helps only if it is held from the read to the write that is based on it."""
     for first, second in ((one, other), (other, one)):
         write = first.access
         read = read_acted_on(write, first.doer, second.access)
@@ -431,7 +431,7 @@ def _leaves_as_found(first: Use, second: Use) -> bool:
 
 
 def _store_alike(one: Use, other: Use) -> bool:
-    """Whether both store ``None``, or both what else is false: it is no matter who is last."""
+    """Whether both store ``None``, or both what else is false: the order does not matter."""
     ours, theirs = one.access, other.access
     return (ours.clears and theirs.clears) or (ours.lowers and theirs.lowers)
 
@@ -440,8 +440,8 @@ def _changes_nothing(first: Use, second: Use) -> bool:
     """
     Whether what comes in between is what was found, or the ``False`` that is stored in any case.
 
-    Two that both test before they store the same may both act on it, and who meets ``None`` where
-    an object was may fail.
+    Two that both test before they store the same may both act on it, and one that meets ``None``
+    instead of an object may fail.
     """
     is_lowered = first.access.lowers and second.access.lowers and not second.access.rests
     return is_lowered or _leaves_as_found(first, second)

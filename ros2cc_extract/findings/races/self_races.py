@@ -55,8 +55,8 @@ def self_races_of(callback: Callback, shared: frozenset[str] = frozenset()) -> I
     """
     The worst one of each attribute.
 
-    :param shared: attributes in which others store values too. Who reads such a one back reckons
-        with that; what nobody else stores is taken for what the same run has written.
+    :param shared: attributes in which others store values too. Code that reads one back expects
+        that; what no other code stores is taken for what the same run has written.
     """
     for name in dict.fromkeys(access.name for access in callback.writes):
         writes = [access for access in callback.writes if access.name == name]

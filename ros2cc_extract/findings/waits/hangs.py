@@ -42,7 +42,7 @@ class Standstill:
 
     @property
     def needed(self) -> str:
-        """Who or what ends it, in words; ``enders`` are their names."""
+        """What ends it, in words; ``enders`` are their names."""
         return self.event.awaited or ''
 
     @property
@@ -75,7 +75,7 @@ class Standstill:
         return self.event.kind == _AWAIT
 
     def said(self, names: Mapping[str, str]) -> str:
-        """Say who waits for what, with words for names of the model."""
+        """Say what waits for what, with words for names of the model."""
         who, needed = names.get(self.who, self.who), self.event.awaited_in(names)
         if self._is_await:
             return f'{who} awaits {needed}'
@@ -137,7 +137,7 @@ def open_waits(moments: Sequence[Moment]) -> list[Standstill]:
 def _concerned(
     waits: Sequence[Standstill], about: Collection[str], groups: Mapping[str, str]
 ) -> list[Standstill]:
-    """Those of ``about``, of what they wait for, and of who keeps the groups of these closed."""
+    """Those of ``about``, of what they wait for, and of what keeps the groups of these closed."""
     names = set(about)
     while True:
         closed = {groups[name] for name in names if name in groups}
@@ -173,7 +173,7 @@ def _kept_moments(
 
 
 def _given_too_early(before: Sequence[Moment], wait: Standstill) -> Iterator[int]:
-    """Where those that could end a wait have done it before it began, and who has used that up."""
+    """Where what could end a wait has done so before it began, and what has used that up."""
     begin = _begin(before, wait.who, wait.since)
     of_enders, earlier, is_given = [], [], False
     for index, event in _events(before):

@@ -62,7 +62,7 @@ def _seconds(wait: AnyWait) -> float:
 
 
 def _takers(lock: str, holder: Doer, context: Context) -> Iterator[tuple[Callback, Act]]:
-    """Other callbacks that may run meanwhile; of who holds it, another run is not meant."""
+    """Other callbacks that may run meanwhile; not another run of the holder."""
     for other in context.written:
         act = next((act for act in other.locks if act.name == lock and not act.tries), None)
         if act is not None and other.name != holder.name and _meet(holder, other, context):

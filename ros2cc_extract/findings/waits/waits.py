@@ -259,12 +259,12 @@ def callers_of(waits: Sequence[AnyWait]) -> tuple[str, ...]:
 
 
 def are_one(waits: Sequence[AnyWait]) -> bool:
-    """Whether all who wait have one name for the reader, as two timers of one function."""
+    """Whether all that wait have one name for the reader, as two timers of one function."""
     return len({called(wait.caller) for wait in waits}) == 1
 
 
 def who_waits(waits: Sequence[AnyWait]) -> str:
-    """Say who waits: ``drive waits``, ``drive, stop wait``."""
+    """Say what waits: ``drive waits``, ``drive, stop wait``."""
     names = shown(wait.caller for wait in waits)
     return f'{names} {"waits" if are_one(waits) else "wait"}'
 

@@ -48,7 +48,7 @@ class Runs:
         """
         Store a run and give where it is found.
 
-        :param unit: whose run it is; names its lanes as they are in the code.
+        :param unit: the unit of the run; it names its lanes as they are in the code.
         """
         callbacks = [each.name for each in unit.callbacks] if unit else []
         names = display_names(unit) if unit else {}

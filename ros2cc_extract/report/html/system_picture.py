@@ -2,7 +2,7 @@
 The picture of a system: its processes with nodes and executors, and what connects them.
 
 Drawn as one SVG without script: a click on an executor leads to its unit. What a circle of waits
-goes through is red; what is not in sight is dashed.
+goes through is red; what is not known is dashed.
 """
 
 from __future__ import annotations

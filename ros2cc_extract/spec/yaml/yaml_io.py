@@ -51,7 +51,7 @@ from ros2cc_extract.spec.yaml.key_tables import (
 MOST_BYTES = 8_000_000
 SPEC_VERSION = 2
 READ_VERSIONS = (1, 2)
-"""Version 1 knows no wakers and no activities: who ends its waits is then open."""
+"""Version 1 knows no wakers and no activities: what ends its waits is then open."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -113,7 +113,7 @@ def _is_of_each_run(block: Blocking, actor: Actor, spec: Spec) -> bool:
 
 
 def _arrivals(closed: ClosedSpec, runs: int) -> dict[str, int]:
-    """So many for each, also for who asks or starts those who take, and then those of a crowd."""
+    """So many for each, also for what asks or starts the takers, and then those of a crowd."""
     arrivals = {}
     crowds = crowding(closed.spec)
     for actor in all_actors(closed.spec):

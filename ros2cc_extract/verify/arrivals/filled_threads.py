@@ -30,7 +30,7 @@ def ask_again(
     """
     Ask again what one arrival for each has not refuted, and keep what is refuted or open now.
 
-    The search has its own bound on states: who waits may overlap itself in many a unit. What no
+    The search has its own bound on states: a waiting callback often may overlap itself. What no
     number of arrivals shows leaves open what is not refuted.
     """
     of_ends = [query for query in queries if query.family in OF_ENDS]

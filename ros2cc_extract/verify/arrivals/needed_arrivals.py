@@ -30,7 +30,7 @@ def needs_two_arrivals(query: Query, spec: Spec, profile: Profile) -> bool:
 
 def crowding(spec: Spec) -> Mapping[str, int]:
     """
-    Who may fill all threads with runs of its own, and how many runs that takes.
+    The callbacks that may fill all threads with their own runs, and how many runs that takes.
 
     A callback of a reentrant group holds a thread in each run that waits. One that keeps a lock
     over an ``await`` holds none there, but each further run holds the thread on which it waits

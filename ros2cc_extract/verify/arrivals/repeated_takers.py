@@ -1,5 +1,5 @@
 """
-Who takes what each wait uses up, from somebody who may not give it once more.
+Callbacks that take what each wait uses up, from a giver that may not give it once more.
 
 With one arrival for each callback a wait of the second run does not exist: what one run gave
 serves the one run that takes. A timer that takes from a queue each period, and another that puts
@@ -55,7 +55,7 @@ def not_looked_at(spec: Spec, results: Mapping[Key, QueryResult]) -> str:
 def _takers(
     spec: Spec, results: Mapping[Key, QueryResult]
 ) -> Iterator[tuple[Callback, NamedWait, int]]:
-    """Give who takes what may not be given once more, and in how many runs that is used up."""
+    """Return what takes what may not be given once more, and in how many runs it is used up."""
     for callback in spec.callbacks:
         for wait in () if callback.one_shot else waits_of(callback, spec):
             is_each = wait.resource is not None and wait.resource.is_each and not wait.is_signal

@@ -74,7 +74,7 @@ def open_ends(unit: Spec) -> dict[str, tuple[OpenEnd, ...]]:
     """
     Give for each doer that somebody wrote the waits of which no model knows how they end.
 
-    Those that somebody outside the unit ends are among them: models take it that he does.
+    Those that code outside the unit ends are among them: models assume that it does.
     """
     written = tuple(callback for callback in unit.callbacks if not callback.builtin)
     doers: tuple[Actor, ...] = (*written, *unit.activities)

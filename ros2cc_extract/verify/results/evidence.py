@@ -20,7 +20,7 @@ class Sentence:
     """
     What one process does in a step.
 
-    :param lane: name of the process whose edge it is: a thread, the executor, a group …
+    :param lane: name of the process that has the edge: a thread, the executor, a group …
     :param event: what it is; ``None`` in a model of somebody else.
     """
 

@@ -123,9 +123,9 @@ def load_of(spec: Spec, callback: Callback, demands: Mapping[str, Demand] | None
 
 def _contenders(spec: Spec, demands: Mapping[str, Demand]) -> int:
     """
-    Count who may want a thread at the same time.
+    Count the callbacks that may want a thread at the same time.
 
-    With more of them than threads, members of one group wait in the queue together, and who is
+    With more of them than threads, members of one group wait in the queue together, and which is
     served later may be refused each time, below full load too (H. Teper et al., EMSOFT 2024; seen
     on rclpy 7.1.6: two threads, three groups, a member with 1 % of the work of the others never
     ran). Only the times of all of them show which it is.
@@ -167,7 +167,7 @@ def _counted(spec: Spec) -> list[Callback]:
 
 
 def _is_one_thread(spec: Spec) -> bool:
-    """A pool of one worker refuses nobody: who is queued runs next."""
+    """A pool of one worker refuses nothing: what is queued runs next."""
     kind = executor_kind(spec)
     return kind is not ExecutorKind.MULTI_THREADED or len(spec.executor.threads) == 1
 

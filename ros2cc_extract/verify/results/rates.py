@@ -84,7 +84,7 @@ def period_of(callback: Callback) -> float | None:
 
 def with_arrivals(units: Sequence[Spec]) -> tuple[Spec, ...]:
     """
-    The units, subscriptions with the period of who publishes for them in any of the units.
+    The units, subscriptions with the period of their publishers in any of the units.
 
     The publisher may be served by another executor, or stand in another program of the sources.
     """
@@ -101,7 +101,7 @@ Publishers = Mapping[str, Mapping[object, Callback]]
 
 
 def _publishers(specs: Iterable[Spec]) -> Publishers:
-    """Who publishes which topic; one node may be served in several programs."""
+    """What publishes which topic; one node may be served in several programs."""
     found: dict[str, dict[object, Callback]] = {}
     for spec in specs:
         for callback in spec.callbacks:

@@ -32,7 +32,7 @@ class Names:
 
     :param said: words for names, as a reader knows them.
     :param unsaid: groups that a reader does not know.
-    :param resources: what is waited for, each with the names of those who end waits for it.
+    :param resources: what is waited for, each with the names of those that end waits for it.
     """
 
     callbacks: tuple[str, ...] = ()
@@ -70,7 +70,7 @@ class Names:
         return names[index] if 0 <= index < len(names) else f'{kind} {index}'
 
     def resource(self, index: int) -> dict[str, object]:
-        """Fields of an event about a resource; a number behind the last is none."""
+        """Fields of an event about a resource; a number above the last has none."""
         if index >= len(self.resources):
             return {'resource': None}
         name, wakers = self.resources[index]

@@ -41,9 +41,9 @@ class _Hunt:
 
     def waypoints(self, by_request: Iterable[str]) -> Iterator[str]:
         """
-        Say how it comes to wait; then the others end, and who shares its group gets data.
+        Say how it comes to wait; then the others end, and all that share its group get data.
 
-        :param by_request: who gets data only where it is asked.
+        :param by_request: those that get data only if they are asked.
         """
         spec = self.part.spec
         places = {callback.name: place for place, callback in enumerate(spec.callbacks)}

@@ -52,7 +52,7 @@ class Crowd:
         """
         Say how they take the threads; then data arrives for the others.
 
-        :param more: of whom data has to arrive as well.
+        :param more: those for which data has to arrive as well.
         """
         spec = self.part.spec
         places = {callback.name: place for place, callback in enumerate(spec.callbacks)}
@@ -71,7 +71,7 @@ class Crowd:
 def refute_by_crowds(
     slicer: Slicer, queries: Sequence[Query], refute: Refute, limits: Limits
 ) -> Found | None:
-    """Refute what crowds refute of ``queries``; ``None`` where there are none, or none does."""
+    """Refute what crowds refute of ``queries``; ``None`` if there are no crowds, or none does."""
     left = {key_of(query): query for query in queries if query.family in _ABOUT}
     found: Found | None = None
     limits = replace(limits, states=SLICE_STATES)

@@ -3,7 +3,7 @@ Claims about runs, asked of units in which less is waited for.
 
 A callback that waits holds its thread and its group like one that runs long, and any run may be
 long. So a unit without some of the waits, and without locks, does all that the unit itself does
-as far as one can see who runs and which groups are closed: what never happens in it never happens.
+as far as it shows what runs and which groups are closed: what never happens in it never happens.
 What may happen in it says nothing, unless the unit may do without these waits itself.
 """
 
@@ -74,8 +74,8 @@ def is_loose(query: Query, closed: ClosedSpec, max_cycle: int) -> bool:
     """
     Return whether a loosened unit may decide it of ``closed``.
 
-    Whom several ask runs as often and may overlap itself, if its group lets it; unasked that takes
-    two arrivals.
+    If several ask one, it runs as often and may overlap itself, if its group allows it. Unasked
+    that takes two arrivals.
     """
     if query.family is Family.SELF_OVERLAP and max_cycle == 1:
         spec = closed.spec

@@ -79,7 +79,7 @@ def _with_one(slicer: Slicer, name: str, steps: tuple[NamedWait, ...]) -> Closed
     one = Slicer(unit, slicer.max_cycle)
     part = one.part_of_end(name)
     if part is None or one.by_request != slicer.by_request & _members(part):
-        return None  # whom no other wait asks would run unasked
+        return None  # one that no other wait asks would run unasked
     own = next(c for c in part.spec.callbacks if c.name == name)
     if tuple(waits_of(own, part.spec)) != steps:
         return None

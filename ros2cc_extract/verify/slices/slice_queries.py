@@ -65,7 +65,7 @@ def _role(key: Key, outline: Outline) -> Role:
 @dataclass(frozen=True)
 class Slicing:
     """
-    Slices of one unit, and who asks them.
+    Slices of one unit, and what asks them.
 
     :param shelf: answers for shapes, of this unit and of others.
     """

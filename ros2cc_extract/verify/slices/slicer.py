@@ -126,7 +126,7 @@ class Slicer:
 
     def holders_from(self, name: str) -> Names:
         """
-        Name who may hold the group of ``name`` forever before it starts.
+        Name what may hold the group of ``name`` forever before it starts.
 
         A run of its own that waits keeps it from being started again: not where it runs once.
         """
@@ -215,8 +215,8 @@ class Slicer:
 
         A callback that may overlap itself is named as often as data arrives for it.
 
-        :param first: who has to be among them.
-        :param rather: who is taken before others; ``without`` are those that are not taken.
+        :param first: what has to be among them.
+        :param rather: what is taken before others; ``without`` are those that are not taken.
         """
         if not self._may_be_crowded:
             return None
@@ -256,7 +256,7 @@ class Slicer:
 
     def part_of_end(self, name: str) -> ClosedSpec | None:
         """
-        Give the slice that is asked whether ``name`` ends, or the whole where there is none.
+        Give the slice that is asked whether ``name`` ends, or the whole if there is no slice.
 
         ``None`` where others run while one waits on the only thread, or beside the executor.
         """
@@ -361,7 +361,7 @@ class Slicer:
 
     def _unpaired(self, callback: Callback) -> Callback:
         """
-        Who has no partner in the unit, since several bear its name, gets none in a slice.
+        One without a partner in the unit, since several have its name, gets none in a slice.
 
         And a service is not absent in a slice that is there in the unit.
         """
@@ -402,7 +402,7 @@ class Slicer:
         return self.closed.spec
 
     def _closers(self, query: Query) -> Iterator[str]:
-        """Who may close the groups a query is about; a reentrant one never closes."""
+        """What may close the groups a query is about; a reentrant one never closes."""
         if query.family is Family.GROUP_CLOSED:
             return
         for group in query.groups:
@@ -419,7 +419,7 @@ class Slicer:
         return {}
 
     def _cone(self, names: Iterable[str], rests: Rests) -> Names:
-        """Follow partners; of those that have to run, also who may keep their group closed."""
+        """Follow partners; of those that have to run, also what may keep their group closed."""
         cone: dict[str, bool] = {}
         waiting = [(name, rests is Rests.ON_START) for name in names]
         while waiting:

@@ -129,7 +129,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
 
 def _python_of(args: argparse.Namespace, command: Sequence[str]) -> str:
-    """Who runs the stimulus: the interpreter of the command, where it names one."""
+    """Return the interpreter for the stimulus: that of the command, if it names one."""
     from ros2cc_extract.cli.shared.on_node import interpreter_of
 
     named = Path(command[0]).name.startswith('python') and not args.python

@@ -120,7 +120,7 @@ def _comparison(source: Path, stdout: TextIO, stderr: TextIO) -> Callable[[tuple
 
 
 def _started(units: Sequence[Spec], live: Sequence[Spec]) -> list[Spec]:
-    """Leave out other programs of a package: those of whose units the run holds none."""
+    """Leave out other programs of a package: those without a unit in the run."""
     from ros2cc_extract.compare.merge import match_units
 
     entries = {unit.entry for unit, _ in match_units(units, live)[0]}

@@ -1,5 +1,5 @@
 """
-Who is at work, and who waits for his turn.
+Which threads are at work, and which wait for their turn.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours.

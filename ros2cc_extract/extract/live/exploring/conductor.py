@@ -36,7 +36,7 @@ class Limits:
     """
     When a schedule is over.
 
-    :param rounds: how often everybody has come to his end; 0 for no such limit.
+    :param rounds: how often all threads have come to their ends; 0 for no such limit.
     """
 
     def __init__(self, row: dict[str, Any]) -> None:

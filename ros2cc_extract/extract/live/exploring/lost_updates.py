@@ -67,7 +67,7 @@ class Accesses:
             self._writers.note(owner, mark.attribute)
             self._read[mark.attribute] = own, mark.line
             lost, self._lost = self._lost, None
-            # Who was only led to store what the other one has stored has taken nothing away.
+            # A thread that only stores the value of the other one loses no update.
             if lost is not None and (mark.computed or shown(own) != lost['other']):
                 self._report(mark, own=shown(own), **lost)
 

@@ -87,7 +87,7 @@ def _of_process(explanation: Explanation) -> Iterator[str]:
 
 
 def _chain(standing: Standing, look: Look) -> Iterator[str]:
-    """From who waits over what it waits for to what keeps that."""
+    """The chain from the waiting thread over what it waits for to what keeps that."""
     activity, place = standing.activity, standing.activity.place
     never = '' if standing.can_end else ' class="never"'
     code = f'{standing.code} ' if standing.code else ''

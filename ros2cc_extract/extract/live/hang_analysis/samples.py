@@ -23,7 +23,7 @@ class Frame:
     :param item: which item of its `with` it is entering, of those that stand at its place.
     :param objects: locks, events, clients … that the frame names, by name, as object numbers.
     :param endless: no time-out was given, as far as the frame shows.
-    :param entity: whose callback it runs, for the one frame of rclpy that does.
+    :param entity: the entity whose callback it runs, for the one frame of rclpy that does.
     """
 
     number: int
@@ -73,7 +73,7 @@ class Activity:
 
     @property
     def entities(self) -> tuple[int, ...]:
-        """Whose callbacks are on the stack."""
+        """The entities whose callbacks are on the stack."""
         own = () if self.entity is None else (self.entity,)
         return own + tuple(each.entity for each in self.frames if each.entity is not None)
 

@@ -245,7 +245,7 @@ def _whole_run(recorder: Recorder, steps: _Steps, original: Any) -> Any:
 
 
 def mark_task(recorder: Recorder, task: Any, record: TaskRecord) -> None:
-    """Note whose task this is; it may have run already, in the thread of the executor."""
+    """Note the record of a task; it may have run already, in the thread of the executor."""
     report(recorder, TASK, record)
     task._ros2cc_record = record
     report_early_run(recorder, task)

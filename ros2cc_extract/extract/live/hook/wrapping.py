@@ -35,7 +35,7 @@ from .writer import Writer
 OUTPUT_VARIABLE = 'ROS2CC_LIVE_DIR'
 TRACE_VARIABLE = 'ROS2CC_LIVE_TRACE'
 WATCHED_MODULE = 'rclpy.executors'
-# Whose callbacks the executor written in C++ calls itself.
+# Types whose callbacks the executor written in C++ calls itself.
 MEASURED_FOR_EVENTS = (
     ('rclpy.timer', 'Timer'),
     ('rclpy.subscription', 'Subscription'),

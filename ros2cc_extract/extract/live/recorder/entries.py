@@ -28,7 +28,7 @@ _KINDS = {
     'ActionClient': 'action_client',
 }
 WAITABLE_KINDS = frozenset({'action_server', 'action_client', 'waitable'})
-# rclpy's modules whose entities nobody wrote, with the kind they are of.
+# rclpy's modules whose entities no user wrote, with their kinds.
 _BUILTIN_MODULES = {
     'parameter_service': 'parameter_service',
     'type_description_service': 'service',
@@ -36,7 +36,7 @@ _BUILTIN_MODULES = {
     'time_source': 'subscription',
     'lifecycle.node': 'lifecycle_service',
 }
-# rclpy's modules whose entities somebody asked for indirectly.
+# rclpy's modules whose entities the user asked for indirectly.
 _LIBRARY_MODULES = ('parameter_client', 'parameter_event_handler')
 
 

@@ -1,5 +1,5 @@
 """
-Decides who may go on: what ends a wait is held back until every wait has begun.
+Decide which threads go on: what ends a wait is held back until every wait has begun.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours.

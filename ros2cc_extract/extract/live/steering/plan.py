@@ -23,7 +23,7 @@ class Point:
     :param first, last: its lines; of a loop with its body.
     :param column: 1-based, where the line holds more than one such place; else 0.
     :param count: how many threads are to stand there.
-    :param holds: who arrives is held until all have arrived.
+    :param holds: what arrives is held until all have arrived.
     :param pause_s: how long the first to arrive is held in any case.
     """
 
@@ -113,7 +113,7 @@ def read_plan(path: str) -> Plan:
     """
     Read a plan.
 
-    :raises OSError, ValueError, KeyError: where it is none.
+    :raises OSError, ValueError, KeyError: if it is invalid.
     """
     with open(path, encoding='utf-8') as stream:  # noqa: PTH123
         return Plan(json.load(stream))

@@ -1,5 +1,5 @@
 """
-Forces two accesses of one attribute: who has read is held before the write, or before the next
+Force two accesses of one attribute: a reader is held before the write, or before the next
 read, until another thread has written.
 
 Only the functions that hold these writes are traced, instruction by instruction. Source: Python,
@@ -44,7 +44,7 @@ class Write:
 
 class Race:
     """
-    One attribute, who is held, and who writes meanwhile.
+    One attribute, the held thread, and the one that writes meanwhile.
 
     :param row: `attribute`, `own`: the write that is held; `others`: writes of other threads,
         which may be the same statement; `is_use`: what is held is a read of what was tested, until
@@ -131,7 +131,7 @@ class Race:
         return self._forced_times <= _MOST_FORCED
 
     def wrote(self, owner: Any) -> None:
-        """Another thread has written: let go who is held."""
+        """Let the held thread go on: another one has written."""
         with self._changed:
             is_other = self._held not in (None, threading.get_ident())
             if is_other and owner is self._object and self._other is NOTHING:

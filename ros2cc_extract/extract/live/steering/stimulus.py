@@ -24,7 +24,7 @@ from typing import Any
 
 NODE = '_ros2cc_stimulus'
 ROUND_S = 0.1
-# What somebody else may offer a moment later is not offered in his place.
+# What another node may offer a moment later is not offered instead.
 GRACE_S = 0.7
 # For the other side to find what is offered.
 SETTLES_S = 0.5

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import time
 
-# For somebody who calls all services and offers all that is asked for.
+# For a stimulus that calls all services and offers all that is asked for.
 PATIENCE_S = 8.0
 
 

@@ -85,7 +85,7 @@ class Effects(Waits):
             self._note_access(shown, kind, place, attribute)
 
     def _seen_at(self, home: collection_aliases.Home) -> str:
-        """Who touches a collection touches what held it first."""
+        """Note the first holder of a collection: code that touches one touches the other."""
         owner, shown = home
         if self.world.activity is not None:
             touch(self.world.activity, owner)
@@ -103,7 +103,7 @@ class Effects(Waits):
             torn_updates.note_held(self.world, owner, name, value, shown)
 
     def _note_other_write(self, owner: Value, name: str, place: Place) -> None:
-        """Code that nobody in sight calls, or that runs after the spin, writes an attribute."""
+        """Code without a known caller, or that runs after the spin, writes an attribute."""
         world = self.world
         cls = owner.cls if isinstance(owner, Instance) else owner
         is_late = world.when is When.LATER or world.after_spin

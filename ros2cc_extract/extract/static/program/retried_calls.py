@@ -2,7 +2,7 @@
 Calls that a loop repeats until they succeed, with or without a time-out of each.
 
 ``while not client.wait_for_service(timeout_sec=1.0): log()``, or the answer is kept in a name that
-the loop asks. A loop that something else may leave is none.
+the loop asks. A loop that something else may leave does not count.
 """
 
 from __future__ import annotations

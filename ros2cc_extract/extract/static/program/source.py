@@ -86,7 +86,7 @@ class SourceFile:
 
     @cached_property
     def tree(self) -> ast.Module | None:
-        """The syntax tree, ``None`` when there is none to be had."""
+        """The syntax tree, ``None`` if the text has none."""
         text = self._text()
         if text is None:
             return None

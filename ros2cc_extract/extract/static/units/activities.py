@@ -87,7 +87,7 @@ def own_spins(state: ActivityState, world: RosWorld, nodes: Sequence[Instance]) 
     Where ``main`` runs the callbacks of ``nodes``, if nobody else does.
 
     Then it stands still while they run, and they do while it goes on: by its one thread, or in
-    a spin forever, whose pool runs nothing before.
+    a spin forever; its pool runs nothing before.
     """
     spins = [spin for spin in world.spins.values() if not set(nodes).isdisjoint(spin.nodes)]
     executors = {spin.executor for spin in spins if not spin.for_ever}

@@ -79,7 +79,7 @@ def each_once(units: Sequence[Spec]) -> tuple[Spec, ...]:
 
 
 def _is_reported(callback: Callback, owned: set[object], named: set[object]) -> bool:
-    """Whether it only lacks a caller, and another unit has that caller in sight."""
+    """Whether it only lacks a caller, and another unit has that caller."""
     if _nobody_passes(callback.key):
         return _line(callback) in named
     return _nobody_passes(callback.node) and _what(callback) in owned

@@ -24,7 +24,7 @@ class Unit:
     """
     An executor and the nodes it serves in the end.
 
-    :param spin: the call that spins it, ``None`` when there is none in sight.
+    :param spin: the call that spins it, ``None`` if no such call is known.
     :param mark: distinguishes units of which a program only ever runs one.
     :param is_only: the program has no other.
     :param set_up: waits of the code that sets it up or ends it.
@@ -98,7 +98,7 @@ def _nested_spin(unit: Unit) -> Unknown | None:
 
 
 def _spun_elsewhere(unit: Unit) -> Unknown | None:
-    """Why somebody who is not in sight may serve the nodes by another executor."""
+    """Why unknown code may serve the nodes by another executor."""
     spin = unit.spin
     if spin is None:
         return None
@@ -112,7 +112,7 @@ def _spun_elsewhere(unit: Unit) -> Unknown | None:
 
 
 def is_handed_over(node: Instance) -> bool:
-    """Whether the node comes from, or goes to, somebody who is not in sight."""
+    """Whether the node comes from, or goes to, unknown code."""
     made_for_nobody = isinstance(node.cls, Class) and node.place == node.cls.place
     return node.state.ghost is not None or made_for_nobody
 

@@ -1,5 +1,5 @@
 """
-Waits of code that no callback runs: ``main``, constructors, functions nobody in sight calls.
+Waits of code that no callback runs: ``main``, constructors, functions without a known caller.
 
 They hold up only the code itself, so they are in no model. What ends each is found as for
 the waits of callbacks; where that is a callback, its node must be spun meanwhile.
@@ -69,7 +69,7 @@ def named_waits(
     waits: Iterable[SetUpWait], world: RosWorld, named: UnitWaits, doers: Mapping[str, object]
 ) -> tuple[Blocking, ...]:
     """
-    The waits by the names of their unit, with those who end them.
+    The waits by the names of their unit, with what ends them.
 
     :param doers: the callbacks and activities of the unit.
     """

@@ -1,4 +1,4 @@
-"""The waits of one unit: what each waits on, and who may end it, by the names of the unit."""
+"""The waits of one unit: what each waits on, and what may end it, by the names of the unit."""
 
 from __future__ import annotations
 
@@ -150,7 +150,7 @@ class UnitWaits(DataWriters):
         return len(takers) < 2 or keeps_to_itself(doer, takers.values())
 
     def _gives_back(self, raw: Blocking, doer: Doer) -> bool:
-        """Whether who takes a semaphore gives it back too, so that it is a lock."""
+        """Whether code that takes a semaphore gives it back too, so that it is a lock."""
         reference = raw.resource
         if raw.call not in TAKES_PERMIT or not isinstance(reference, ResourceRef):
             return False
@@ -293,7 +293,7 @@ class UnitWaits(DataWriters):
         )
 
     def _unsent(self, raw: Blocking, doer: Doer) -> str | None:
-        """The topics on which nobody in sight publishes before the wait has ended."""
+        """The topics on which no known code publishes before the wait has ended."""
         reference = raw.resource
         if not isinstance(reference, ResourceRef) or _is_in_turn(reference, doer):
             return None
@@ -386,13 +386,13 @@ class UnitWaits(DataWriters):
         return self._names.get(id(doer))
 
     def _why_open(self, mine: list[Waking], reference: ResourceRef) -> Unknown | None:
-        """Why it is not known who ends the wait."""
+        """Why it is not known what ends the wait."""
         if reference.asked and reference.number not in self._world.given:
             return Unknown('somebody else may have taken what was asked for')
         return self._why_others(mine, reference)
 
     def _why_others(self, mine: list[Waking], reference: ResourceRef) -> Unknown | None:
-        """Why somebody may end the wait who is not known."""
+        """Why unknown code may end the wait."""
         given = self._world.given.get(reference.number)
         if given is not None:
             return given
@@ -475,7 +475,7 @@ def _unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:
 
 
 def _why_none(raw: Blocking, mine: list[Waking], doer: Doer, world: RosWorld) -> Unknown | None:
-    """Why it is not known whether anybody ends a wait that nobody in sight ends."""
+    """Why it is not known whether a wait without a known waker ends."""
     if mine or not isinstance(raw.resource, ResourceRef):
         return None
     words = raw.resource.ended_by

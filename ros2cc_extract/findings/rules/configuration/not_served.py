@@ -14,7 +14,7 @@ from ros2cc_extract.spec.model import NO_EXECUTOR
 
 EXECUTOR = 'executor'
 _HIDING = frozenset({'entities', 'node', 'function'})
-"""Facts that may hide who serves a node, where they are missing."""
+"""Facts that, if missing, may hide what serves a node."""
 
 
 def find(context: Context) -> Iterator[Hit]:

@@ -67,7 +67,7 @@ def find(context: Context) -> Iterator[Hit]:
     """
     One finding for all that hang together, where all facts are known.
 
-    Who is held up by a wait that another rule explains is no finding of its own.
+    A callback held up by a wait that another rule explains is no finding of its own.
     """
     yield from (_unread(alike) for alike in at_one_place(_for_writers(context)))
     if not open_facts(context):
@@ -179,7 +179,7 @@ def open_facts(context: Context) -> str:
 
 
 _MATTERS = ('entities', 'group', 'executor', 'function', 'threads')
-"""Facts of a unit that may change who runs beside whom, or who ends a wait."""
+"""Facts of a unit that may change which callbacks overlap, or what ends a wait."""
 
 
 def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit:
@@ -213,7 +213,7 @@ def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit
 
 
 def _repeated(stuck: Sequence[Stuck]) -> tuple[Doer, ...]:
-    """Who stands still in several runs at a time."""
+    """The callbacks that stand still in several runs at a time."""
     doers = [each.doer for each in stuck]
     return tuple(dict.fromkeys(doer for doer in doers if doers.count(doer) > 1))
 

@@ -35,7 +35,7 @@ def find(context: Context) -> Iterator[Hit]:
     """
     One thread is CC102's case, and a wait that never ends by itself is CC101's.
 
-    Where no executor is in sight there is no number to compare with.
+    Without a known executor there is no number to compare with.
     """
     executor = context.unit.executor
     if is_one_thread(executor) or isinstance(executor.kind, Unknown):
@@ -180,7 +180,7 @@ def _hit(waits: Sequence[Wait], capacity: Capacity, rest: str, severity: Severit
 
 
 def _counted(capacity: Capacity) -> str:
-    """Name those who can wait together, and how often each that is there several times."""
+    """Name those that can wait together, and how often each that is there several times."""
     times: Counter[str] = Counter()
     for callback, number in zip(capacity.together, capacity.times, strict=True):
         times[called(callback)] += number

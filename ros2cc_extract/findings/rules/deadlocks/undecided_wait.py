@@ -263,7 +263,7 @@ def _is_foreign(block: Blocking) -> bool:
 
 def _cut_short(context: Context, reported: Sequence[AnyWait]) -> Iterator[AnyWait]:
     """
-    Waits of callbacks about whose end a limit of the checker has left the question open.
+    Waits of callbacks whose ends are undecided because of a limit of the checker.
 
     Or that end only by what is not known to come; where a wait is reported already, claims about
     ends may be open for its reason.
@@ -345,7 +345,7 @@ def _limit_of(wait: AnyWait, context: Context) -> str:
 
 
 def _senders(topics: str, context: Context) -> Iterator[Callback | Activity]:
-    """Who publishes them here."""
+    """What publishes them here."""
     for doer in context.doers:
         names = (act.name for act in doer.publishes if isinstance(act.name, str))
         if any(name.strip('/') in topics.split(', ') for name in names):
@@ -386,7 +386,7 @@ def _hit(waits: Sequence[AnyWait], reason: str, context: Context, *, is_outside:
 
 
 def _help(wait: AnyWait, *, is_outside: bool) -> str:
-    """A loop has no time-out; who waits in a thread of its own is in one already."""
+    """A loop has no time-out; code that waits in a thread of its own is in one already."""
     if is_outside:
         own = '' if isinstance(wait.caller, Activity) else ', or do it in a thread of its own'
         return f'give it a time-out{own}'
@@ -399,7 +399,7 @@ def _help(wait: AnyWait, *, is_outside: bool) -> str:
 
 def _others(wait: AnyWait) -> str:
     """
-    Whom the unit does not show, with those of the unit that end it too.
+    What the unit does not show, with what ends it too in the unit.
 
     That may be another executor of the same program: units are judged one by one.
     """

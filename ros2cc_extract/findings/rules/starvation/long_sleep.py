@@ -139,7 +139,7 @@ def seconds_of(wait: Wait) -> float:
 
 
 def _held_up(caller: Callback, context: Context) -> tuple[str, tuple[Callback, ...]] | None:
-    """What a callback holds that has no thread or no group of its own, and who waits for that."""
+    """What a callback holds that has no thread or group of its own, and what waits for it."""
     executor = context.unit.executor
     if is_one_thread(executor):
         others = tuple(c for c in context.written if c != caller)

@@ -14,7 +14,7 @@ from ros2cc_extract.verify.results.load import Load, LoadKind, Serving, demands_
 from ros2cc_extract.verify.results.rates import Demand
 
 MOST_RUNS = 0.9
-"""Who gets this share of its runs, or more, is well enough served: our choice."""
+"""A callback with this share of its runs, or more, is served well enough: our choice."""
 
 
 def find(context: Context) -> Iterator[Hit]:

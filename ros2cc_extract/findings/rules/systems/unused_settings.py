@@ -27,7 +27,7 @@ def find(system: System) -> Iterator[Hit]:
 
 
 def _is_known(process: Process) -> bool:
-    """Whether all that the process has in the graph is in sight."""
+    """Whether all that the process has in the graph is known."""
     is_whole = process.outside is None and bool(process.nodes) and not process.launched.open
     return is_whole and all(
         node.open is None

@@ -65,7 +65,7 @@ def _sure_goals(part: Spec) -> Iterator[object]:
 
 
 def _sure_results(part: Spec) -> Iterator[object]:
-    """The actions whose execute callback waits for nobody."""
+    """The actions whose execute callback waits for nothing."""
     if len(part.executor.threads) < 2:
         return
     for callback in part.callbacks:
@@ -91,7 +91,7 @@ def _named(callbacks: Iterable[Callback], kind: EntityKind) -> set[str]:
 
 
 def _asked_otherwise(part: Spec, clients: Mapping[str, Callback]) -> Iterable[str]:
-    """The actions for one of whose answers alone somebody waits, whichever that is."""
+    """The actions of which code waits for one answer only, whichever that is."""
     doers: tuple[Callback | Activity, ...] = (*part.callbacks, *part.activities)
     for block in (block for doer in doers for block in doer.blocking):
         client = clients.get(block.on) if isinstance(block.on, str) else None
@@ -107,7 +107,7 @@ def _split(
     Return a unit with the ends of ``keys`` split.
 
     :param second: what takes the second answer, by what takes the first.
-    :param left_out: of both, those for whose answers nobody needs to wait.
+    :param left_out: of both, those whose answers need no wait.
     """
     taken = {*part.names(), *second.values()}
     callbacks: list[Callback] = []

@@ -148,7 +148,7 @@ class ServiceWait:
     """
     A wait without a time-out for the answer of a service or an action, or for a message.
 
-    :param client: who takes it.
+    :param client: what takes it.
     :param name: resolved.
     """
 
@@ -241,7 +241,7 @@ def _why_not(process: Process) -> Unknown | None:
 
 def _joined(circle: Sequence[Process], sent: Collection[str]) -> Joined | Unknown | None:
     """
-    One unit of all; why there is none, or ``None`` where no executor needs itself by them.
+    One unit of all; or why it cannot be made; ``None`` if no executor needs itself by them.
 
     :param sent: topics on which only these processes send.
     """
@@ -271,7 +271,7 @@ def _joined(circle: Sequence[Process], sent: Collection[str]) -> Joined | Unknow
 
 
 def _open_answers(whole: Spec) -> Iterator[Unknown]:
-    """Waits for answers of which the model of all does not say who gives them."""
+    """Waits for answers whose server the model of all does not have."""
     doers: tuple[Callback | Activity, ...] = (*whole.callbacks, *whole.activities)
     for block in (block for doer in doers for block in doer.blocking):
         clients = asked_by(block, whole.callbacks)

@@ -1,7 +1,7 @@
 """
 Services and actions that are there for certain once the system has started.
 
-Alone, a callback that waits in ``wait_for_service`` waits for somebody outside. In a system whose
+Alone, a callback that waits in ``wait_for_service`` waits for a node outside. In a system whose
 processes offer it in their set-up, which comes to its end, that wait is over in some time.
 """
 

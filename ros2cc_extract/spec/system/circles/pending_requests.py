@@ -18,7 +18,7 @@ SEVERAL = 2
 
 
 def with_askers(units: Sequence[Spec]) -> list[Spec]:
-    """The units of a program, services with the number of those who may ask at once."""
+    """The units of a program, services with the number of clients that may ask at once."""
 
     def asked(callback: Callback, unit: Spec) -> Callback:
         if callback.entity is not EntityKind.SERVICE or not isinstance(callback.key, str):
@@ -62,7 +62,7 @@ def _count(client: Callback) -> int:
 
 
 def _callers(client: str, unit: Spec) -> Iterator[str]:
-    """Who waits for its answers: of one mutually exclusive group only one at a time."""
+    """How many wait for its answers: of one mutually exclusive group only one at a time."""
     for callback in unit.callbacks:
         if _waits_for(client, callback.blocking):
             group = unit.group_of(callback)

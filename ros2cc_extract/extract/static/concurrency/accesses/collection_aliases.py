@@ -27,7 +27,7 @@ def note_held(
 
 
 def home_of(world: ConcurrentWorld, owner: Value, attribute: str) -> Home | None:
-    """Who held first the collection that an attribute holds for good, and how it is called."""
+    """The first holder of the collection that an attribute holds for good, and its name."""
     if not isinstance(owner, Instance) or not world.homes:
         return None
     held = owner.slots.get(attribute)

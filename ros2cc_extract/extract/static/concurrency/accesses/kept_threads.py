@@ -2,7 +2,7 @@
 Threads of which only one runs at a time, as each begins only when the one before has ended.
 
 ``if self.worker is not None and self.worker.is_alive(): return``, and then a new thread is stored
-there and started. Who tests and starts must do so in one piece: under one lock, or in callbacks
+there and started. Test and start must be in one piece: under one lock, or in callbacks
 of one exclusive group, which ``units/threads_in_turn.py`` knows.
 """
 

@@ -2,7 +2,7 @@
 Whether somebody waits already when a condition is notified.
 
 A condition forgets a ``notify`` that comes while nobody waits (CPython 3.12, ``threading.py``,
-``Condition.notify``). It is heard by who has asked, in the same hold of the lock, for what the
+``Condition.notify``). It reaches code that has asked, in the same hold of the lock, for what the
 notifier writes, or has begun in that hold what notifies: that cannot go on before the wait.
 """
 
@@ -80,7 +80,7 @@ def note_begun(world: ConcurrentWorld, place: Place) -> None:
 
 
 def note_made(world: ConcurrentWorld, kind: str, place: Place) -> None:
-    """Who runs now makes an entity at ``place``, or the same one once more."""
+    """Note that the running code makes an entity at ``place``, or the same one once more."""
     if world.effects is None:
         return
     made = world.effects.changes
@@ -118,7 +118,7 @@ def guard_of(world: ConcurrentWorld, condition: Instance) -> Guard:
 @dataclass(frozen=True)
 class Notifier:
     """
-    Who notifies a condition, and what it writes.
+    The code that notifies a condition, and what it writes.
 
     :param place: where its thread is started, or its entity made.
     :param wrote: names of all that it writes.

@@ -9,7 +9,7 @@ from ros2cc_extract.extract.static.python.values.values import Class, Const, Ins
 from ros2cc_extract.light_dataclasses import dataclass
 
 MOST = 3
-"""A model counts no more writes than these: who gives so many gives more."""
+"""A model counts no more writes than these: a giver of so many gives more."""
 
 
 @dataclass(frozen=True)

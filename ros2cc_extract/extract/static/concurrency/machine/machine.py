@@ -77,7 +77,7 @@ class ConcurrentMachine(Machine, ABC):
         """
         The task by which that loop runs ``coroutine``; ``None`` where there is no such loop.
 
-        :param loop: to which somebody hands it over, who may block until it is done.
+        :param loop: the loop that it is handed over to; the giver may block until it is done.
         """
 
     @abstractmethod

@@ -1,7 +1,7 @@
 """
 What runs concurrently, and what a run leaves behind of it: threads, locks, waits, accesses.
 
-Who runs as a callback is for the model of a library to say; here each is a ``Doer``.
+The model of a library says what runs as a callback; here each is a ``Doer``.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ class ActivityState(Doer):
     Code that runs on a thread which no executor has.
 
     :param place: where it is started.
-    :param runners: the threads or futures that stand for it; who waits on one waits for its end.
-    :param starts: who starts it.
+    :param runners: the threads or futures that stand for it; a wait on one is a wait for its end.
+    :param starts: what starts it.
     :param endless: its loop that nothing ends, the end of rclpy included.
     :param again: where it starts itself anew in each run, on every branch.
     :param is_daemon: the same; ``None`` where that is not known.
@@ -47,12 +47,12 @@ class ActivityState(Doer):
     :param serves: it spins an executor; forever where it ``is_executor``.
     :param nodes: identities of the nodes that it touches, ``things`` those of other objects.
     :param turns: equal for those that have one thread between them.
-    :param pool: whose threads run it.
+    :param pool: the pool whose threads run it.
     :param site: equal for one start that is met again.
     :param wakes: what it does to end waits, as it was seen in the set-up.
     :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it.
     :param alone: the attributes it is kept in, of which each start has found that the thread there
-        has ended; with who starts it, and the holds of locks from that test on.
+        has ended; with what starts it, and the holds of locks from that test on.
     :param left: attributes that it has itself emptied by now.
     """
 
@@ -160,7 +160,7 @@ class SetUpWait:
     A wait of code that no callback runs, as it is in ``outside`` too.
 
     :param block: with references to what it waits on.
-    :param uncalled: the function, which nobody in sight calls, that leads there.
+    :param uncalled: the function without a known caller that leads there.
     :param by: the thread that waits; one that only spins has no waits of its own.
     :param is_late: the spin is over.
     :param in_handler: a handler of a signal waits, on the main thread.
@@ -188,9 +188,9 @@ class ConcurrentWorld(World):
     :param other_writes: data that is written by what nobody in sight calls, with its name, or
         after the spin has ended, with ``None``.
     :param writes_beside: data that the set-up writes when it has started a thread, or has spun.
-    :param cleared: events that somebody clears: who and where, and how many entities there were.
+    :param cleared: events that code clears: which and where, and how many entities there were.
     :param by_loop: a loop of asyncio does what is followed, in its own thread.
-    :param loop_runs: who runs one; ``loop_touches`` what is done to what belongs to one, and
+    :param loop_runs: what runs one; ``loop_touches`` what is done to what belongs to one, and
         ``awaited_of_loops`` the queues and events that some coroutine awaits.
     :param lost_wakes: what ends waits for an attribute of that name of what is not known.
     :param given: objects that were handed to code which is not followed, with the reason.
@@ -205,7 +205,7 @@ class ConcurrentWorld(World):
     :param forked: where the program splits off a child that runs its own text.
     :param on_loop: a callback runs a coroutine by asyncio, which holds its thread.
     :param second_pass: one is followed for what it does; what it makes is known already.
-    :param readers: who reads the pipes of a child process, by the place where that is made.
+    :param readers: what reads the pipes of a child process, by the place where that is made.
     :param queues: what is put into queues, see ``queue_items.py``.
     :param homes: the attribute that first held a collection, see ``collection_aliases.py``.
     :param objects: the attribute that holds an object of unknown kind for good, by the object.
@@ -329,5 +329,5 @@ class ConcurrentWorld(World):
         self.before_loop = self.main_spins
 
     def served_within(self, file: str, first: int, last: int) -> tuple[Instance, ...]:
-        """Whose callbacks the lines of a file let run."""
+        """The nodes whose callbacks the lines of a file let run."""
         return ()

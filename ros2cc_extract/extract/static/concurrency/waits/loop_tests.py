@@ -63,7 +63,7 @@ def names_assigned(part: ast.AST) -> Iterator[str]:
 
 
 def names_grown(part: ast.AST) -> Iterator[str]:
-    """Names whose object a method, an assignment to an item, or who gets it may change."""
+    """Names whose object a method, an assignment to an item, or a receiver may change."""
     if isinstance(part, ast.Call) and name_of(part) not in _NEUTRAL:
         yield from (each.id for each in part.args if isinstance(each, ast.Name))
     target = part.func if isinstance(part, ast.Call) else part

@@ -126,7 +126,7 @@ def note_loop(world: ConcurrentWorld, names: set[str], place: Place) -> None:
 
 
 def forget_awaits(world: ConcurrentWorld, since: int) -> None:
-    """Who runs a coroutine that nobody in sight calls is not known: an executor may do so."""
+    """Note a coroutine without a known caller: an executor may run it."""
     late = [each for each in world.diagnostics[since:] if each.slug != _ASYNCIO_AWAIT]
     world.diagnostics[since:] = late
 

@@ -1,7 +1,7 @@
 """
 Loops that do nothing but wait until somebody else has changed plain data.
 
-``while not self.arrived: time.sleep(0.1)`` waits as ``Event.wait`` does; who writes what the test
+``while not self.arrived: time.sleep(0.1)`` waits as ``Event.wait`` does; what writes what the test
 reads ends it.
 """
 

@@ -85,7 +85,7 @@ class RosNotes(StandardBlocks, RosMachine):
     def member_of_unknown_base(
         self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
     ) -> Value | None:
-        """A node's method on a class whose base is not in sight makes it a node."""
+        """A node's method on a class with an unknown base makes it a node."""
         if not isinstance(receiver, Instance):
             return None
         if name in _NODE_ONLY:

@@ -49,7 +49,7 @@ IN_TASK = '__in_task__'
 STARTED = '__started__'
 """Slot of a task that is no future of its own."""
 LOOSE = '__loose__'
-"""Slot of a task that nobody keeps but who has made it."""
+"""Slot of a task that only its maker keeps."""
 
 _LOOP = 'asyncio.AbstractEventLoop'
 _FUTURE = 'asyncio.Future'
@@ -120,7 +120,7 @@ def make_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _create_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Nobody keeps the task but who gets it here."""
+    """Mark a task that only its receiver here keeps."""
     task = make_task(machine, receiver, call)
     if isinstance(task, Instance):
         task.slots[LOOSE] = NONE
@@ -183,7 +183,7 @@ def _call_soon_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Cal
 
 
 def _is_running(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Who asks has another way for a loop that runs."""
+    """Return an open answer: code that asks has another way for a loop that runs."""
     machine.world.asked.add(_ASKED)
     return machine.mystery('whether a loop runs', call.place, 'is_running()')
 

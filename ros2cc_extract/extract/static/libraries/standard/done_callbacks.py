@@ -69,7 +69,7 @@ class _Left:
     """
     A callback that is run by the code that completes its future.
 
-    :param around: of the world, who has added it, and where.
+    :param around: state of the world: what has added it, and where.
     """
 
     future: Instance
@@ -96,7 +96,7 @@ def may_be_done(machine: ConcurrentMachine, future: Instance) -> None:
 
 
 def add_done_callback(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Run it at once where the future is done, else keep it for who completes the future."""
+    """Run it at once if the future is done, else keep it for code that completes the future."""
     assert isinstance(receiver, Instance)
     callback = call.argument(0, 'callback') or call.argument(0, 'fn')
     if not isinstance(receiver.state, PlainState) or callback is None:
@@ -113,7 +113,7 @@ def add_done_callback(machine: ConcurrentMachine, receiver: Value, call: Call) -
 
 
 def _note_later(machine: ConcurrentMachine, future: Instance, callback: Value, call: Call) -> None:
-    """Who is not in sight may complete it: an executor by a task, a thread of a pool itself."""
+    """Note that unknown code may complete it: an executor by a task, a thread of a pool itself."""
     state = future.state
     if state.kind == OF_POOL and future.mro[-1] == _BY_HAND:
         machine.world.escaped.append((callback, call.place))
@@ -177,7 +177,7 @@ def _run_all(machine: ConcurrentMachine, future: Instance, place: Place, *, is_s
     held = future.slots.get(_CALLBACKS, ABSENT)
     callbacks = options_of(held)
     if world.current is not None and world.activity is None:
-        note_found(world, future, _CALLBACKS, held)  # who adds one later makes it run here
+        note_found(world, future, _CALLBACKS, held)  # code that adds one later makes it run here
     if _is_done(future) == _DONE:
         return
     machine.store.write(future, _IS_DONE, _EITHER if world.in_thread or not is_sure else _DONE)

@@ -50,7 +50,7 @@ class Contents:
 
     @property
     def met(self) -> int:
-        """How many items all have met who take some."""
+        """How many items all consumers have met."""
         return min(self.taken.values(), default=0)
 
 
@@ -82,7 +82,7 @@ def taken_out(machine: ConcurrentMachine, queue: Value, call: Call) -> Value | N
 
 
 def take_back(world: ConcurrentWorld) -> None:
-    """When all was followed: who takes items has met them, and ends what he ends."""
+    """When all was followed: consumers have met the items, and end what they end."""
     queues = list(world.queues.values())
     lost = {id(each.queue): 0 if id(each.queue) in world.given else each.met for each in queues}
     left = [item for each in queues for item in each.items[lost[id(each.queue)] :]]
@@ -95,7 +95,7 @@ def take_back(world: ConcurrentWorld) -> None:
 
 
 def _is_of_threads(queue: Instance) -> bool:
-    """Those of other processes give copies, and those of loops are taken from by who awaits."""
+    """Queues of other processes give copies; code that awaits takes from those of loops."""
     return isinstance(queue.cls, Library) and queue.cls.name.startswith('queue.')
 
 

@@ -59,7 +59,7 @@ def note_followed(world: ConcurrentWorld, handler: ActivityState) -> None:
 
 
 def _beside(handler: Value, place: Place) -> ActivityState:
-    """It is followed like a thread, and is none: nothing starts it, and no unit has it."""
+    """It is followed like a thread, but is not one: nothing starts it, and no unit has it."""
     unknown = Unknown('what the system gives a handler of a signal', place)
     return ActivityState(ActivityKind.THREAD, place, handler, Call(place, more=unknown))
 

@@ -207,7 +207,7 @@ def _acquire(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _take(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Who gives it back himself takes it as a lock, else it is a wait for others."""
+    """Code that gives it back itself takes it as a lock, else it is a wait for others."""
     if _waits_for_it(call):
         timeout = call.argument(1, 'timeout')
         machine.note_blocking('Semaphore.acquire', receiver, timeout, call.place)
@@ -236,7 +236,7 @@ def _break_off(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value
 
 
 def _barrier_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Its time-out is that of all who wait at it."""
+    """Its time-out is that of all waits at it."""
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, INITIAL, call.argument(0, 'parties') or NONE)
     machine.store.write(receiver, _PATIENCE, call.argument(2, 'timeout') or NONE)

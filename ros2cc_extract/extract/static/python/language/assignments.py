@@ -95,7 +95,7 @@ class Assignments(Machine):
                 self.note_attribute(option, name, AccessKind.WRITE, place)
 
     def _note_same_unknown(self, old: Any, new: Value) -> None:
-        """One attribute holds one thing: callers not in sight pass the same to all methods."""
+        """One attribute holds one thing: unknown callers pass the same to all methods."""
         if (
             isinstance(old, Mystery)
             and isinstance(new, Mystery)

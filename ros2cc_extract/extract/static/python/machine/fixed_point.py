@@ -63,7 +63,7 @@ def _token(value: Value) -> object:
     """
     Equal for functions of one text: a lambda is another object each time it is made.
 
-    So is a future that a callback makes in each run: who ends the wait for one ends it for all.
+    So is a future that a callback makes in each run: what ends the wait for one ends it for all.
     """
     if isinstance(value, Instance) and is_waited_on(value):
         return value.place

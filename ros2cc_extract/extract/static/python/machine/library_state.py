@@ -21,7 +21,7 @@ class LibraryState:
     :cvar is_known_by_name: where branches decide which one a name means, each gets that name.
     :cvar is_made_once: code that asks whether there is one yet makes one at each place.
     :cvar is_beside: an object may be this besides what another base class makes of it.
-    :cvar is_unit_of_its_own: who waits for it waits for what it serves.
+    :cvar is_unit_of_its_own: a wait for it is a wait for what it serves.
     :cvar may_end_waits: code that has it may end what others wait for.
     """
 

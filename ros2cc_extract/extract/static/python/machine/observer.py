@@ -139,7 +139,7 @@ class LibraryHooks:
     def member_of_unknown_base(
         self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
     ) -> Value | None:
-        """Attribute ``name`` where a base class is not in sight."""
+        """Attribute ``name`` where a base class is not known."""
         return None
 
     def member_of_mystery(self, value: Mystery, name: str, place: Place) -> Value | None:

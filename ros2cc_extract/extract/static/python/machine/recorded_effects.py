@@ -1,4 +1,4 @@
-"""Who is followed by itself, and what he was seen to do meanwhile."""
+"""What is followed by itself, and what it was seen to do meanwhile."""
 
 from __future__ import annotations
 

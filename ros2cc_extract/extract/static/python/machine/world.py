@@ -1,7 +1,7 @@
 """
 What one run of a program leaves behind, as far as Python itself goes.
 
-Records are mutable while the run goes on. Who models more than the language derives from it: what
+Records are mutable while the run goes on. Models of more than the language derive from it: what
 runs concurrently in ``concurrency/machine/state.py``, the model of a library in its own.
 """
 
@@ -96,11 +96,11 @@ class World:
     :param made_of: how many instances there are of each class.
     :param followed_later: how many methods of each class were followed without a caller.
     :param settled: instances in which nothing was left to follow, with a stamp of that time.
-    :param without_caller: the objects on which those were followed that nobody in sight calls.
+    :param without_caller: the objects on which functions without a known caller were followed.
     :param yielding: the last generator that ran, with the locks that it keeps while it yields.
     :param looking: the properties that are running, by owner and name.
-    :param unset_globals: what stands in globals that are ``None`` in sight, by file and name.
-    :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
+    :param unset_globals: values of globals that known code only sets to ``None``, by file, name.
+    :param same_unknowns: arguments of unknown callers that one attribute holds in turn.
     :param reading: what the callback that is followed has read.
     :param times: how often a loop does what is followed once, where that is known.
     :param round: which rounds of the loops around it are followed, where that distinguishes them.

@@ -1,5 +1,5 @@
 """
-Which nodes are one, and which entities: what is made only while there is none is made once.
+Which nodes are one, and which entities: what is made only if it does not exist yet is made once.
 
 A test such as ``if node is None`` cannot be decided in a callback, nor in code whose caller is
 not in sight. What such code makes at one place, with the same arguments, is one node; else a

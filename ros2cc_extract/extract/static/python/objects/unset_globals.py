@@ -1,5 +1,5 @@
 """
-Globals that are ``None`` as far as the program is in sight, and that somebody else sets.
+Globals that known code only sets to ``None``, and that unknown code sets.
 
 Whatever that is, it is one thing wherever the global is used: ``node.create_client(…)`` on ten
 lines makes ten clients of one node, not of ten.

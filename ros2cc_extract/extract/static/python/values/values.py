@@ -95,7 +95,7 @@ class Mystery(Value):
 
     @property
     def lacks_caller(self) -> bool:
-        """Whether it is what somebody who is not in sight passes."""
+        """Whether it is what an unknown caller passes."""
         return self.unknown.reason.endswith(NO_CALLER)
 
     def __repr__(self) -> str:
@@ -346,7 +346,7 @@ class Partial(Value):
     """
     ``functools.partial`` of something callable.
 
-    :param more: why more may be bound than what is in sight.
+    :param more: why more may be bound than is known.
     """
 
     __slots__ = ('args', 'function', 'keywords', 'more')
@@ -418,7 +418,7 @@ Handler = Callable[[Any, Value, Call], Value]
 A library function: the machine, the receiver (or what stands before the dot), the call.
 
 Which machine it needs is for the function to say: one of ``math`` is content with any, one of
-``threading`` needs one that notes who waits.
+``threading`` needs one that notes which code waits.
 """
 
 

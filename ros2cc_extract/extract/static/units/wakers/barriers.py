@@ -1,5 +1,5 @@
 """
-Barriers: who comes to one, and whether all come to every round of it.
+Barriers: what comes to one, and whether all come to every round of it.
 
 A barrier lets its parties through together and begins anew (CPython 3.12, ``threading.py``,
 ``Barrier``). One that comes once more than the others waits for a party that does not come; if
@@ -25,7 +25,7 @@ CALL = 'Barrier.wait'
 
 
 def visits_of(reference: ResourceRef, doers: Sequence[Doer]) -> Visits:
-    """The waits at a barrier, of everybody who comes to it."""
+    """The waits at a barrier, of all that come to it."""
     numbers = {reference.number, *reference.like}
     found: dict[Doer, list[Blocking]] = {}
     for doer in doers:

@@ -1,4 +1,4 @@
-"""Who writes the data, or sends the messages, for which code waits."""
+"""What writes the data, or sends the messages, for which code waits."""
 
 from __future__ import annotations
 
@@ -61,14 +61,14 @@ class DataWriters:
         return names.pop() if is_one and not is_activity(doer) else str(on)
 
     def _writes(self, on: DataRef) -> Iterator[tuple[Doer, Access]]:
-        """Who writes what a loop waits for, but for what its own callback did before."""
+        """What writes the data a loop waits for, except what its own callback did before."""
         for doer in self._doers:
             for access in (doer.effects or EffectLog()).writes:
                 if access.name in on.names and not _is_before(access, on):
                     yield doer, access
 
     def _movers(self, clock: object, topic: ClockRef) -> tuple[Waker, ...]:
-        """Who moves a simulated clock: the subscription, and somebody who sends to it."""
+        """What moves a simulated clock: the subscription, and a publisher that sends to it."""
         by = [clock if isinstance(clock, str) else OUTSIDE]
         if not any(self._senders(TopicRef(topic))):
             by.append(OUTSIDE)
@@ -109,7 +109,7 @@ class DataWriters:
         return written.get((access.name, access.source), (None, True))[1]
 
     def _senders(self, topic: TopicRef) -> Iterator[Waker]:
-        """Who publishes what is waited for; the names are compared as they are written."""
+        """What publishes the awaited message; the names are compared as they are written."""
         for doer in self._doers:
             for act in (doer.effects or EffectLog()).publishes:
                 if isinstance(act.name, str) and act.name.strip('/') == topic.strip('/'):

@@ -41,7 +41,7 @@ def is_plain_lock(
     """
     Whether a semaphore is taken as a lock of which nothing more is to be said.
 
-    Everybody who takes it gives it back, and waits for nothing meanwhile, nor takes it twice.
+    All code that takes it gives it back, waits for nothing meanwhile, and does not take it twice.
     """
     takers = [each for each in doers if any(_takes(raw, each))]
     return any(each is doer for each in takers) and all(

@@ -3,7 +3,7 @@ Wakers that others may keep from ending a wait, in ways that no model has.
 
 A task or a done-callback is there only when its maker has run, and an execute callback when a goal
 callback has accepted; a loop of asyncio runs one coroutine at a time, which
-holds it while it blocks; and who puts something in and takes it out again in the same run may be
+holds it while it blocks; and code that puts something in and takes it out in the same run may be
 the one who gets it. Such a waker is one that perhaps never comes.
 """
 

@@ -36,7 +36,7 @@ _TAKEN_AWAY = 'another spin of that executor may take the node away'
 
 
 def of_spin_aside(world: RosWorld, raw: Blocking, named: Blocking, doer: Doer) -> Blocking | None:
-    """Give a nested spin, or the wait for its future, with who ends it; ``None`` for any other."""
+    """Give a nested spin, or the wait for its future, with what ends it; ``None`` for others."""
     ender = _ender_of_spin(world, raw, doer)
     if ender is not None:
         return replace(named, wakers=(ender,))
@@ -48,7 +48,7 @@ def of_spin_aside(world: RosWorld, raw: Blocking, named: Blocking, doer: Doer) -
 
 
 def _ender_of_spin(world: RosWorld, raw: Blocking, doer: Doer) -> Waker | None:
-    """Who ends a nested spin, or the wait for its future; ``None`` where that is not known."""
+    """What ends a nested spin, or the wait for its future; ``None`` if that is not known."""
     spins = _spins_at(world, raw, doer)
     if not spins or not all(_is_aside(spin, world) for spin in spins):
         return None

@@ -1,5 +1,5 @@
 """
-Wakers that may be gone when somebody waits, or come before he does.
+Wakers that may be gone when code waits, or come before it does.
 
 A timer that is cancelled or never started, a callback whose entity or node is destroyed, and what
 runs once only, which a condition forgets when nobody waits yet. Sources: rclpy 7.1.6 and 9.1.2,
@@ -219,7 +219,7 @@ def _when_lost(
 
 
 def _is_before(clear: tuple[object, Place], entities: int, mine: Sequence[Waking]) -> bool:
-    """Whether who clears an event asks only behind that for what sets it."""
+    """Whether code that clears an event asks only after that for what sets it."""
     by, _ = clear
     return all(
         isinstance(waking.by, EntityState)

@@ -1,4 +1,4 @@
-"""Who ends a wait for an event, a future, a queue …"""
+"""What ends a wait for an event, a future, a queue …"""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 """
-Messages that nobody in sight can send before the wait that they end is over.
+Messages that no known code can send before the wait that they end is over.
 
 A program that publishes a topic itself, and only from callbacks that the waiting one keeps out of
 their group, goes on by a message that was on its way when the wait began, or by one of another
-process. Nobody knows of either. A topic that nobody in sight publishes is another matter: its
+process. Neither is known. A topic that no known code publishes is another matter: its
 messages are taken to come by themselves. Measured with rclpy 7.1.6 and 9.1.2.
 """
 
@@ -29,7 +29,7 @@ def unsent_before_end(
     raw: Blocking, sent: Collection[str], wakers: Sequence[object], doer: Doer, world: RosWorld
 ) -> str | None:
     """
-    The topics whose messages end a wait, where nobody in sight can publish one meanwhile.
+    The topics whose messages end a wait, if no known code can publish one meanwhile.
 
     :param sent: topics on which ``doer`` itself has published before; these are on their way.
     :param wakers: callbacks and activities that end it.
@@ -98,7 +98,7 @@ def _is_made(entity: EntityState) -> bool:
 def _running(
     doer: Doer, free: Sequence[Doer], published: Collection[str], sent: Collection[str]
 ) -> set[Doer]:
-    """Those of ``free`` that run by themselves or because of ``doer``, and whom these set off."""
+    """Those of ``free`` that run by themselves or because of ``doer``, and those they start."""
     runs: set[Doer] = set()
     on_its_way = set(sent)
 

@@ -51,14 +51,14 @@ def _may_meet(end: End, use: End) -> bool:
 
 
 def _is_kept_apart(end: End, use: End) -> bool:
-    """Whether who destroys takes a lock before that under which is published."""
+    """Whether the destroying code first takes a lock under which is published."""
     effects = end.doer.effects or EffectLog()
     taken = {act.name for act in effects.locks} | set(end.locks)
     return not taken.isdisjoint(use.locks)
 
 
 def _has_joined(end: End, other: _Doer) -> bool:
-    """Whether who destroys the publisher waits for the end of that thread somewhere."""
+    """Whether the code that destroys the publisher waits for the end of that thread somewhere."""
     if not isinstance(other, ActivityState):
         return False
     runners = {id(runner) for runner in other.runners}

@@ -63,7 +63,7 @@ def never_joined(
     wait: OutsideWait, world: RosWorld, spun: Sequence[Instance]
 ) -> Iterator[Diagnostic]:
     """
-    The waits of a joined thread that nobody ends who is still there.
+    The waits of a joined thread that nothing ends that is still there.
 
     :param spun: the nodes that other threads spin meanwhile.
     """
@@ -77,7 +77,7 @@ def never_joined(
             goes_round = WORKING_LOOP in loops or (loops and block.call == RATE)
             asks_again = block.call in ANSWERS and way_of(block) in state.effects.looped
             goes_round = goes_round or asks_again or comes_back(block, state, world)
-            # Who is behind its only loop is behind what it asks in that.
+            # Code after its only loop is after what it asks in that.
             passed = (block, *around) if asks_again and len(around) == 1 else (block,)
             was_reported = any(is_reported(each, state, wait, world) for each in passed)
             goes_round = goes_round and not was_reported
@@ -192,7 +192,7 @@ def _why_asleep(block: Blocking, wait: OutsideWait, world: RosWorld) -> str | No
 
 
 def _waits_itself(spin: Spin, wait: OutsideWait) -> bool:
-    """Whether who spins is who waits, and that spin ends while rclpy is there still."""
+    """Whether the spinning thread is the one that waits, and its spin ends before rclpy does."""
     is_main = not spin.in_thread and not spin.from_callback and not wait.in_thread
     return is_main and not spin.for_ever and spin.how.endswith('spin_until_future_complete')
 
@@ -205,7 +205,7 @@ def _serves(spin: Spin, node: Instance) -> bool:
 
 def _have_given(wakings: Sequence[Waking], taker: ActivityState, wait: OutsideWait) -> bool:
     """
-    Whether those who give are over, and what they gave last need not be for the end.
+    Whether the givers are over, and what they gave last need not be for the end.
 
     So it is where both are ended by what their loops ask for: one that leaves its loop by itself
     may do so for an item, or put one first that says so.

@@ -1,8 +1,8 @@
 """
-``wait_for_message`` on a node that somebody spins meanwhile, and who takes the message then.
+``wait_for_message`` on a node that is spun meanwhile, and what takes the message then.
 
 It makes a subscription of the node, in its default group, and waits for it by a wait set of its
-own; an executor that spins the node meanwhile sees that subscription too. Who comes first takes
+own; an executor that spins the node meanwhile sees that subscription too. The first takes
 the message: the other one finds none, and ``wait_for_message`` gives ``(False, None)`` at once, or
 waits for the next one. Sources: rclpy 7.1.6 and 9.1.2, ``wait_for_message.py``, ``executors.py``
 (``_wait_for_ready_callbacks``, ``_take_subscription``: not while the group is closed).

@@ -69,7 +69,7 @@ def _nested(
     machine: RosMachine, node: Instance, given: Value, how: str
 ) -> tuple[str, Instance | None, str]:
     """
-    What a callback does that spins ``node``: how that is called, who moves, and how.
+    What a callback does that spins ``node``: its name, what moves, and how.
 
     Nothing moves where the executor is named that serves the node, or that cannot be followed;
     nor where a node of no executor is spun on one that is named: it is as if that were spun.
@@ -191,7 +191,7 @@ def _refused(how: str, place: Place) -> Diagnostic:
 
 def _is_spun_then(machine: RosMachine, executor: Instance) -> bool:
     """
-    Whether a thread spins ``executor`` when code runs that nobody in sight calls.
+    Whether a thread spins ``executor`` while code without a known caller runs.
 
     So it is where the program hands that on, as to a window, and the spin ends with rclpy or
     never. What nobody names may be for use before the spin, or none at all.
