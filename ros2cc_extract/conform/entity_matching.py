@@ -93,7 +93,7 @@ def _spans(trace: Trace) -> Mapping[int, Span]:
 
 
 def _is_free(subject: Subject, there: list[Subject], spans: Mapping[int, Span]) -> bool:
-    """Whether it may be the same callback as these: tasks of a function, or one that is over."""
+    """Whether it may be the same callback as others: a task, or one when all others are over."""
     return subject.kind in _TASK_KINDS or all(
         one.group == subject.group and _are_apart(spans.get(one.number), spans.get(subject.number))
         for one in there

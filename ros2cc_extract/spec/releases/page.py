@@ -38,7 +38,7 @@ def page() -> str:
 
 
 def _picture() -> Iterator[str]:
-    yield '## Who behaves how\n'
+    yield '## Behaviour by release\n'
     heads = [f'{line.distro.capitalize()} {line.major}' for line in LINES]
     yield f'| | {" | ".join(heads)} |'
     yield '|---' * (len(LINES) + 1) + '|'

@@ -103,10 +103,10 @@ def _spun_elsewhere(unit: Unit) -> Unknown | None:
     if spin is None:
         return None
     if not spin.for_ever and any(is_handed_over(node) for node in unit.nodes):
-        reason = f'{spin.how} serves this node in passing; who else does is not in sight'
+        reason = f'{spin.how} serves this node in passing; what else serves it is not in sight'
         return Unknown(reason, spin.place)
     if spin.for_ever and any(i >= 0 for _, i in beyond(spin.path, unit.nodes[0].path)):
-        reason = f'{spin.how} stands under a condition; who else serves it is not in sight'
+        reason = f'{spin.how} stands under a condition; what else serves it is not in sight'
         return Unknown(reason, spin.place)
     return None
 

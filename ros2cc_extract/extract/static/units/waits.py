@@ -75,7 +75,7 @@ from ros2cc_extract.spec.effects import (
 )
 from ros2cc_extract.spec.model import ActivityKind
 
-_KEPT = 'it is kept in a collection, and who takes it out could not be followed'
+_KEPT = 'it is kept in a collection, and the code that takes it out could not be followed'
 NOWHERE = Place('')
 _OF_FORK = 'a child of os.fork may wait for a lock that another thread held then'
 # What is waited for of one object may be several things.

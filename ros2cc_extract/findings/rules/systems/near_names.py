@@ -92,7 +92,7 @@ RULE = Rule(
     what='In the system of a launch file a service, action or topic is wanted by one node and '
     'offered by none, while another node offers one that nobody wants and whose name differs by '
     'the namespace, a slash, a `~`, upper and lower case, or one letter. Code that waits for it '
-    'waits in vain. A note where code of the system, or a name in it, is not in sight.',
+    'waits forever. A note where code of the system, or a name in it, is not in sight.',
     why='Names are expanded with the namespace and the name of their node and then remapped; '
     'endpoints are connected only where the result is the same. Source: design.ros2.org, '
     '"Topic and Service name mapping to DDS"; rcl (Jazzy), `expand_topic_name.c`, `remap.c`.',

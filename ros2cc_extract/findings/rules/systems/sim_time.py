@@ -24,7 +24,7 @@ def find(system: System) -> Iterator[Hit]:
             place=waiting[0].launched.source,
             message=f'{names}: {PARAMETER} is true, and nobody in the system publishes {_CLOCK}: '
             'their time stands still, and their timers never fire',
-            help=f'start who publishes {_CLOCK}, or leave {PARAMETER} false',
+            help=f'start a node that publishes {_CLOCK}, or leave {PARAMETER} false',
             subjects=tuple(process.name for process in waiting),
         )
 
@@ -55,5 +55,5 @@ Node(package='arm', executable='driver', parameters=[{'use_sim_time': True}])   
     good="""\
 Node(package='arm', executable='driver', parameters=[{'use_sim_time': False}])
 """,
-    mend='Start who publishes `/clock`, or leave `use_sim_time` false.',
+    mend='Start a node that publishes `/clock`, or leave `use_sim_time` false.',
 )

@@ -78,7 +78,7 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
         if name == _CONNECTED:
             return _socket(machine, call, timeout)
         if name == _ACCEPT:
-            address = machine.mystery('address of who connects', call.place)
+            address = machine.mystery('address of the peer', call.place)
             return Sequence((_socket(machine, call, None), address), 'tuple')
         return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
 

@@ -80,7 +80,7 @@ def _reason(reference: ResourceRef, visits: Visits, mine: Sequence[Waking]) -> s
     if _others_come(visits, mine):
         return None  # who they are is found elsewhere
     if not reference.is_own and any(_may_meet_itself(doer) for doer in visits):
-        return 'several runs of one who comes may meet there'
+        return 'several runs of one that comes may meet there'
     parties = reference.parties
     if parties is None:
         return 'how many must come is not known'
