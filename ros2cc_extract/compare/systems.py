@@ -200,12 +200,12 @@ def _may_be_missing(process: Process) -> bool:
 
 
 def _may_have_more(process: Process) -> bool:
-    """Whether a process may hold nodes that nobody has seen."""
+    """Whether a process may hold nodes that were not seen."""
     return process.outside is not None and not process.nodes and process.launched.name is None
 
 
 def _unseen(left: System, matching: NodeMatching) -> Iterator[Process]:
-    """Processes of which not even the name of a node is known."""
+    """Processes without a known node name."""
     seen = {id(each.process) for pair in matching.pairs for each in pair[:1]}
     seen |= {id(each.process) for each in matching.only_left}
     yield from (each for each in left.processes if id(each) not in seen and not each.nodes)
@@ -218,7 +218,7 @@ def _nameless(process: Process, other: System) -> Difference:
         unit=process.name,
         subject=process.name,
         fact='process',
-        left=f'outside: {why.reason}' if why is not None else 'no node is in sight',
+        left=f'outside: {why.reason}' if why is not None else 'no node is found',
         left_place=process.launched.source,
         marked=True,
     )

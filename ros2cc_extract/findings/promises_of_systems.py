@@ -139,8 +139,8 @@ def _doubts(
             )
         servers = offers.units.get((wait.what, wait.name), [])
         if not servers:
-            where = '' if offers.are_all else ' in sight'
-            yield f'{who} {wait.what} {wait.name}, which nobody{where} offers'
+            nobody = 'nobody' if offers.are_all else 'no known node'
+            yield f'{who} {wait.what} {wait.name}, which {nobody} offers'
         for unit in servers:
             at = offers.numbers_of(unit)
             if not at or any(_mark(known[n]) is not Mark.KEPT for n in at):

@@ -78,8 +78,8 @@ def scan_sources(
         )
     left_out = [unit for unit in extraction.units if not unit.callbacks]
     for unit in left_out:
-        in_sight = ' in sight' if _missing(unit) else ''
-        print(f'{_where(unit)}: unit {unit.name} has no callback{in_sight}, left out', file=stderr)
+        known = ' known' if _missing(unit) else ''
+        print(f'{_where(unit)}: unit {unit.name} has no{known} callback, left out', file=stderr)
     return replace(
         extraction,
         units=tuple(unit for unit in extraction.units if unit.callbacks),

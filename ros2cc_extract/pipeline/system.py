@@ -144,7 +144,7 @@ class _Builder:
             whole=next((each for each in found.wholes if each.entry == entry), None),
         )
         if entry is None:
-            return replace(process, outside=Unknown('no start of a node is in sight in its file'))
+            return replace(process, outside=Unknown('no start of a node is found in its file'))
         return process
 
     def _scan_once(self, path: Path, parameters: GivenParameters) -> Extraction:
@@ -210,11 +210,11 @@ def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
     if isinstance(name, Unknown):
         return Unknown(name.reason, name.at or launched.source)
     if name is None:
-        return Unknown('no executable is in sight', launched.source)
+        return Unknown('no executable is found', launched.source)
     if not package:
         return _python_file(Path(name), launched, started)
     if started.packages.folder(package) is None:
-        return Unknown(f'package {package} is not in sight', launched.source)
+        return Unknown(f'package {package} is not found', launched.source)
     found = started.packages.executable(package, name)
     if found is None:
         return Unknown(_not_found(package, name, started), launched.source)

@@ -126,7 +126,7 @@ def test_nothing_in_sight_is_undecided(tmp_path: Path) -> None:
     out, err = io.StringIO(), io.StringIO()
     assert main(['check', '-q', '--no-cache', str(path)], out, err) == 3
     assert err.getvalue() == 'nothing to check: none of 1 processes has a known callback\n'
-    assert 'process e is outside: package elsewhere is not in sight' in out.getvalue()
+    assert 'process e is outside: package elsewhere is not found' in out.getvalue()
 
 
 def test_an_argument_needs_a_launch_file(tmp_path: Path) -> None:

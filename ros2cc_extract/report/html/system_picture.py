@@ -51,7 +51,7 @@ def system_section(system: System, anchors: Mapping[UnitKey, str], name: str = '
     legend = (
         span('letter', 'T'), ' topic ', span('letter', 'S'), ' service ',
         span('letter', 'A'), ' action ', span('circle', 'red: a circle of waits'), ' ',
-        span('dashed', 'dashed: not in sight, or there under a condition'),
+        span('dashed', 'dashed: not known, or there under a condition'),
     )  # fmt: skip
     return tag(
         'section',

@@ -39,7 +39,7 @@ class Evaluator:
     """
     Evaluates expressions.
 
-    :param share_of: the folder of a package, ``None`` where it is not in sight.
+    :param share_of: the folder of a package, ``None`` where it is not known.
     """
 
     def __init__(self, context: Context, share_of: ShareOf) -> None:
@@ -126,7 +126,7 @@ class Evaluator:
         if isinstance(name, Unknown):
             return name
         folder = self._share_of(name)
-        return Unknown(f'package {name} is not in sight') if folder is None else str(folder)
+        return Unknown(f'package {name} is not found') if folder is None else str(folder)
 
     def _logic(self, part: Logic) -> Value:
         values = [self.value(operand) for operand in part.operands]

@@ -301,7 +301,7 @@ class Actions:
     def _computed(self, call: Call) -> Action:
         function = call.argument(0, 'function')
         if function is None:
-            return Unfollowed(place=call.place, why=Unknown('no function is in sight'))
+            return Unfollowed(place=call.place, why=Unknown('no function is found'))
         return Computed(place=call.place, function=self._follow(function, call))
 
     def _handler(self, call: Call) -> Action:

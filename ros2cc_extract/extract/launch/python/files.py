@@ -100,7 +100,7 @@ class PythonFile:
     def _described(self, module: Module) -> list[Action]:
         function = module.slots.get(_START)
         if not isinstance(function, Function):
-            why = Unknown(f'no function {_START} is in sight')
+            why = Unknown(f'no function {_START} is found')
             return [Unfollowed(place=self._place, why=why)]
         description = self._machine.call(function, Call(function.place))
         return self._actions.of_description(description, function.place)

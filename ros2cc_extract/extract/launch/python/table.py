@@ -149,7 +149,7 @@ def _share(share_of: ShareOf) -> Handler:
             return machine.mystery('package that could not be followed', call.place)
         folder = share_of(name.value)
         if folder is None:
-            return machine.mystery(f'package {name.value} is not in sight', call.place)
+            return machine.mystery(f'package {name.value} is not found', call.place)
         return Const(str(folder))
 
     return handler

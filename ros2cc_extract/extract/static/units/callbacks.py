@@ -140,7 +140,7 @@ class UnitBuilder:
             reason = f'node name {name.text}: {name.unknown.reason}'.replace(' :', ':')
             at = name.unknown.at or at
         elif name is None:
-            reason = 'no call of Node.__init__ with a name is in sight'
+            reason = 'no call of Node.__init__ with a name is known'
         self._facts.append(
             Unresolved(subject=mend(label), fact='node_name', reason=reason, source=at)
         )

@@ -71,7 +71,7 @@ def executor_of(unit: Unit, name: str, threads: tuple[str, ...], entry: str | No
     unresolved = state.unknown or state.unresolved or state.threads_unresolved
     elsewhere = _spun_elsewhere(unit) if entry is None else None
     if spin is None and unresolved is None:
-        reason = 'no call that spins this executor is in sight'
+        reason = 'no call that spins this executor is known'
         unresolved = _nested_spin(unit) or Unknown(reason, unit.executor.place)
     return Executor(
         name=name,
@@ -103,10 +103,10 @@ def _spun_elsewhere(unit: Unit) -> Unknown | None:
     if spin is None:
         return None
     if not spin.for_ever and any(is_handed_over(node) for node in unit.nodes):
-        reason = f'{spin.how} serves this node in passing; what else serves it is not in sight'
+        reason = f'{spin.how} serves this node in passing; what else serves it is not known'
         return Unknown(reason, spin.place)
     if spin.for_ever and any(i >= 0 for _, i in beyond(spin.path, unit.nodes[0].path)):
-        reason = f'{spin.how} stands under a condition; what else serves it is not in sight'
+        reason = f'{spin.how} stands under a condition; what else serves it is not known'
         return Unknown(reason, spin.place)
     return None
 

@@ -30,8 +30,8 @@ from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Needs
 
-_UNSPUN = 'nothing in sight spins {node} meanwhile'
-_NOBODY = 'nothing in sight ends it'
+_UNSPUN = 'no known code spins {node} meanwhile'
+_NOBODY = 'no known code ends it'
 _IN_HANDLER = 'a handler of a signal keeps the main thread'
 _STAYS = 'the thread may loop forever'
 
@@ -117,7 +117,7 @@ class _SetUpWaits:
         if reasons and is_met:
             return None
         if wait.uncalled:
-            return f'nothing in sight calls {wait.uncalled}'
+            return f'no known code calls {wait.uncalled}'
         stuck_ones = [each for each in unserved if each is not None]
         if stuck_ones and self._is_sure(stuck_ones, len(reasons), block, wait):
             self.world.diagnostics.append(_never(block, stuck_ones[0]))

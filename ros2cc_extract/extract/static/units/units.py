@@ -108,7 +108,7 @@ def _not_spun(executor: Instance) -> Diagnostic:
         severity=Severity.WARNING,
         slug='executor-not-spun',
         place=executor.place,
-        message=f'{name} has nodes, and no call in sight spins it',
+        message=f'{name} has nodes, and no known call spins it',
         help=f'call {name}.spin()',
     )
 
@@ -119,7 +119,7 @@ def _not_run(loop: Instance) -> Diagnostic:
         severity=Severity.WARNING,
         slug='executor-not-spun',
         place=loop.place,
-        message='no call in sight runs this AsyncNode: none of its callbacks ever runs',
+        message='no known call runs this AsyncNode: none of its callbacks ever runs',
         help='enter it by `async with node:`, or `await node.run()`',
     )
 

@@ -402,7 +402,7 @@ class UnitWaits(DataWriters):
         uncalled = next((w for w in mine if w.uncalled is not None), None)
         if uncalled is not None:
             return Unknown(
-                f'nothing in sight calls {uncalled.uncalled}, which ends it', uncalled.place
+                f'no known code calls {uncalled.uncalled}, which ends it', uncalled.place
             )
         return uncalled_wakers(self._world, str(reference), reference.ended_by, reference.made)
 
@@ -483,7 +483,7 @@ def _why_none(raw: Blocking, mine: list[Waking], doer: Doer, world: RosWorld) ->
         return Unknown('how many threads come there is not known', raw.source)
     if words == {Word.END}:
         is_join = raw.call.endswith('.join')
-        reason = 'nothing in sight starts it' if is_join else 'its end is not in sight'
+        reason = 'no known code starts it' if is_join else 'its end is not known'
         return Unknown(reason, raw.source)
     kept = world.kept_inside.get(raw.resource.number)
     return Unknown(_KEPT, kept) if kept is not None else None

@@ -190,9 +190,7 @@ def _counted(capacity: Capacity) -> str:
 def _asked(capacity: Capacity) -> Iterator[Remark]:
     for service in capacity.together:
         if service.askers and service.source is not None:
-            words = (
-                f'{plural(service.askers, "client")} in sight may ask {called(service)} at once'
-            )
+            words = f'{plural(service.askers, "known client")} may ask {called(service)} at once'
             yield Remark(service.source, words)
 
 
@@ -271,7 +269,7 @@ RULE = Rule(
     'itself is a note. It is a warning for a subscription or timer that sleeps by a `Rate`, '
     'since each run sleeps for a period, and for a service that waits without a time-out where '
     'the model has a run in which all threads are taken by one arrival for each callback. A '
-    'service of a reentrant group counts as often as clients in sight may call it at the same '
+    'service of a reentrant group counts as often as known clients may call it at the same '
     'time, on any executor. If it takes more requests than these, it stays a note, and the run '
     'is shown. A callback that claims a state under a lock, waits, and releases it is not '
     'reported. Loops that sleep and then check whether another callback has written something '

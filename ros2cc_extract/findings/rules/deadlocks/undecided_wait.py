@@ -414,8 +414,8 @@ UNDECIDED = Rule(
     severity=Severity.NOTE,
     title='Wait that could not be decided',
     what='A callback, `main` or a thread waits for something, and the code that ends the wait '
-    'could not be followed: the object was passed to code that is not in sight, or nothing in '
-    'sight ends the wait. The same holds for an await of something that a thread completes: that '
+    'could not be followed: the object was passed to unknown code, or no known code ends the '
+    'wait. The same holds for an await of something that a thread completes: that '
     'wakes no executor, and it is unknown when something else does; on Humble, of a spin until '
     'a future that a thread completes. Whether the wait ends is '
     'open, and so is every claim that depends on it. There is one line for each wait, not for '
@@ -427,7 +427,7 @@ UNDECIDED = Rule(
 class Feeder(Node):
     def __init__(self):
         super().__init__('feeder')
-        self.jobs = connect_to_plant()           # a library whose source is not in sight
+        self.jobs = connect_to_plant()           # a library whose source is not available
         self.create_timer(0.5, self.feed)
 
     def feed(self):
@@ -438,7 +438,7 @@ class Feeder(Node):
     def feed(self):
         self.jobs.wait(timeout=0.1)
 """,
-    mend='Give the wait a time-out. Or let a callback or a thread in sight end it, so that the '
+    mend='Give the wait a time-out. Or let a known callback or thread end it, so that the '
     'model can decide it.',
     find=find_undecided,
 )

@@ -40,7 +40,7 @@ RULE = Rule(
     slug='never-configured',
     severity=Severity.WARNING,
     title='A life-cycle node that nobody configures',
-    what='A node of the system has a life cycle, all code of the system is in sight, and nothing '
+    what='A node of the system has a life cycle, all code of the system is known, and nothing '
     'in it asks the service that changes its state; neither does the launch file emit events, and '
     'the node does not change its state itself.',
     why='A life-cycle node starts unconfigured: `on_configure` and `on_activate` run when a '

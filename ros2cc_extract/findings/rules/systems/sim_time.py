@@ -44,7 +44,7 @@ RULE = Rule(
     slug='sim-time-without-clock',
     severity=Severity.WARNING,
     title='Simulated time that nobody provides',
-    what='The launch file sets `use_sim_time` for a node, all code of the system is in sight, and '
+    what='The launch file sets `use_sim_time` for a node, all code of the system is known, and '
     'nothing in it publishes `/clock`.',
     why='A node with simulated time takes its time from `/clock` and starts at zero; without '
     'messages there the time stands still, and timers, rates and `sleep_for` of the node never '

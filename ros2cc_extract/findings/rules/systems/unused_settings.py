@@ -102,7 +102,7 @@ RULE = Rule(
     severity=Severity.NOTE,
     title='Remap or parameter of the launch file that no code uses',
     what='A launch file remaps a name that no node of the process uses, or sets a parameter that '
-    'none of them declares or asks for, and all code of the process is in sight. A warning where '
+    'none of them declares or asks for, and all code of the process is known. A warning where '
     'nearly the same name is used, a note elsewhere.',
     why='A rule that matches nothing is ignored without a word, and so is a parameter that a node '
     'does not declare. Source: design.ros2.org, "Remapping Names"; rclpy 7.1.6, `node.py` '

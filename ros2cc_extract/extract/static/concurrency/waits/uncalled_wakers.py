@@ -81,7 +81,7 @@ def uncalled_wakers(
             is_called = operation.function in world.called
             if is_meant and not is_called and not _is_dead(world, operation.outer):
                 at = Place(file, operation.line, operation.column)
-                return Unknown(f'nothing in sight calls {operation.called}, which ends it', at)
+                return Unknown(f'no known code calls {operation.called}, which ends it', at)
     return None
 
 
@@ -138,7 +138,7 @@ def data_is_written_elsewhere(world: ConcurrentWorld, names: frozenset[str]) -> 
     for name in sorted(names):
         by, place = world.other_writes.get(name, (None, None))
         if by is not None:
-            return Unknown(f'nothing in sight calls {by}, which writes it', place)
+            return Unknown(f'no known code calls {by}, which writes it', place)
     found = (
         uncalled_wakers(world, name.rpartition('.')[2], frozenset({Word.WRITE}), None)
         for name in names

@@ -18,7 +18,7 @@ from ros2cc_extract.source_locations import Place, Unknown
 
 _TEXT_LIMIT = 60
 
-NO_CALLER = 'no caller is in sight'
+NO_CALLER = 'no caller is known'
 NOT_FOLDED = 'an expression that could not be folded'
 
 

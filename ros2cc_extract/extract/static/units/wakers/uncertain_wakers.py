@@ -98,7 +98,7 @@ def _why_one_is_gone(
         return None
     its_name = name(waker) or 'a callback'
     if waker.dormant is not None and not waker.restarted:
-        return Unknown(f'nothing in sight starts the timer of {its_name}', waker.dormant)
+        return Unknown(f'no known code starts the timer of {its_name}', waker.dormant)
     for end in world.ends:
         if _is_of(end, waker) and not _ends_all(end, world) and not is_harmless(end):
             doer = 'a thread' if isinstance(end.doer, ActivityState) else 'a callback'
