@@ -56,7 +56,7 @@ def who_can_change(folder: Path) -> Path | None:
     """
     Give the folder by which another user could change what is, or will be, in ``folder``.
 
-    ``None`` where nobody could, or where that cannot be found out.
+    ``None`` if no other user could, or if that cannot be found out.
     """
     try:
         there = next(each for each in (folder, *folder.absolute().parents) if each.exists())
@@ -150,9 +150,9 @@ def _header(name: str, content: bytes) -> bytes:
 @cache
 def _own_folder(folder: Path) -> Path:
     """
-    Give the way to a folder that nobody else can bend.
+    Return the path to a folder that no other user can redirect.
 
-    :raises OSError: when somebody can, or there is no such folder.
+    :raises OSError: if another user can, or there is no such folder.
     """
     own = folder.resolve(strict=True)
     if open_to_others(own) is not None:

@@ -77,7 +77,7 @@ def alarm(seconds: float | None, again_s: float) -> Iterator[Callable[[], None] 
     End what still runs after ``seconds``, wherever it is.
 
     Gives what takes the alarm back, or ``None`` where none was set: without a limit, in threads
-    that hear no signals, where there are alarms of somebody else, and where the system has none,
+    that hear no signals, where there are alarms of other code, and where the system has none,
     as in a browser. Work that looks at the clock itself ends in time there too.
 
     :param again_s: what is raised while an object is taken apart is lost, so it rings again

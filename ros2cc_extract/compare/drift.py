@@ -1,5 +1,5 @@
 """
-Contract mode: what a program says otherwise than the specification somebody committed.
+Contract mode: differences between a program and the committed specification.
 
 Everything counts that decides how callbacks behave; where in a file it stands does not, so that
 edits which only move lines are no drift. Unlike ``merge.diff`` nothing is excused: both sides

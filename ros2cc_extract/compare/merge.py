@@ -208,7 +208,7 @@ def _is_made_again(unit: Spec, node: str) -> bool:
 
 
 def _functions(unit: Spec, node: str) -> set[str]:
-    """Give class and function of what somebody wrote; the module depends on how it is started."""
+    """Return class and function of user code; the module depends on how it is started."""
     callbacks = (c for c in unit.callbacks if not c.builtin and c.node in (node, None))
     return {'.'.join(c.function.split('.')[-2:]) for c in callbacks if c.function}
 

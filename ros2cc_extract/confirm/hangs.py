@@ -120,7 +120,7 @@ def _loop(activity: Activity, schedule: Schedule) -> Activity | None:
 
 
 def kept_lock(schedule: Schedule, seen: Observations) -> Judgement | None:
-    """The callback is over, and another one waits for a lock that nobody is left to give back."""
+    """The callback is over, and another one waits for a lock that nothing is left to give back."""
     both = pair(seen)
     if schedule.code != 'CC112' or not seen.passed.get(0) or both is None:
         return None

@@ -53,7 +53,7 @@ def _words(schedule: Schedule, row: Row) -> str | None:
     try:
         return report(schedule, row) if report else None
     except (KeyError, IndexError, TypeError):
-        return None  # somebody else has written there
+        return None  # another process has written there
 
 
 def _numbers(threads: Iterator[Any]) -> dict[int, int]:

@@ -35,7 +35,7 @@ def with_copies(trace: Trace, executor: int, spec: Spec) -> tuple[Spec, frozense
     """
     Give ``spec`` as many callbacks of one line as the trace shows, in groups as it shows them.
 
-    :return: the unit, and the names of those callbacks of which there are several now.
+    :return: the unit, and the names of those callbacks that now exist several times.
     """
     matched = _match(trace, executor, spec)
     copies = _Copies(trace, spec, matched.places)

@@ -80,7 +80,7 @@ class ObservedModel:
     """
     Steps of one model, from packed state to packed state.
 
-    :param unseen_collects: places of callbacks of which no trace says that they were collected.
+    :param unseen_collects: places of callbacks whose collection no trace shows.
     """
 
     def __init__(self, model: Model, callbacks: int, unseen_collects: frozenset[int]) -> None:

@@ -1,7 +1,7 @@
 """
 Decides whether a sequence of observations is a path of a model.
 
-The model takes steps that nobody sees; and observations of different threads may stand in the
+The model takes steps that are not observed; and observations of different threads may stand in the
 trace in another order than they happened. So paths are searched, depth first, in the order of
 the clock as long as that will do; begins and ends in one exclusive group never stand in another
 order. What arrives is only made to arrive when it is collected:
@@ -250,7 +250,7 @@ def _sooner_or_later(model: ObservedModel, packed: int, wanted: frozenset[int]) 
 
 def _arrivals(model: ObservedModel, packed: int, wanted: frozenset[int]) -> list[int]:
     """
-    Let arrive what is wanted and can; arrivals disturb nobody, so in any order.
+    Let arrive what is wanted and can; arrivals do not interact, so in any order.
 
     Where something can arrive that was sent as well as something else, what was sent is first.
     """

@@ -51,7 +51,7 @@ def gaps(
     List what is missing.
 
     :param places: of the callbacks, by the numbers of their subjects.
-    :param several: names of callbacks of which one line has made several.
+    :param several: names of callbacks that one line has made several times.
     """
     ran = {each.callback for each in seen}
     callbacks = [callback for place, callback in enumerate(spec.callbacks) if place in ran]

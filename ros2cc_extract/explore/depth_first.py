@@ -86,7 +86,7 @@ def _does(at: str) -> tuple[str, str]:
 @dataclass
 class _Branch:
     """
-    A moment at which somebody was chosen.
+    A moment at which a thread was chosen.
 
     :param enabled: those that could be chosen.
     :param sleeping: those that need not be chosen.

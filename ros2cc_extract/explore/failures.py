@@ -27,7 +27,7 @@ _OF_TOOL = f'{Path(__file__).resolve().parents[1]}{os.sep}'
 _ENDS = frozenset(
     {'KeyboardInterrupt', 'SystemExit', 'ExternalShutdownException', 'GeneratorExit'}
 )
-# Time is no wait; and whether somebody outside answers is not for the program to decide.
+# Time is no wait; and whether a node outside answers is not for the program to decide.
 _UNREPORTED = (Wait.NOTHING, Wait.SLEEP, Wait.WORK, Wait.ANSWER, Wait.ACTION, Wait.SERVER)
 
 

@@ -112,7 +112,7 @@ class InProcess:
         threading.Thread(target=self._tick, name='ros2cc schedules', daemon=True).start()
 
     def end(self) -> None:
-        """Let everybody go on."""
+        """Let all threads go on."""
         self._is_over.set()
         self._control.let_go()
 

@@ -38,7 +38,7 @@ class Seen:
 
     :param choices: the chosen threads, and where each stood.
     :param choosable: the candidates.
-    :param rounds: after how many choices nobody was at work.
+    :param rounds: after how many choices no thread was at work.
     :param seconds: from its begin to its end.
     """
 
@@ -61,7 +61,7 @@ class Process:
 
     :param schedules: those that were begun.
     :param ended: it ended before its schedules were over.
-    :param interrupted: somebody has pressed Ctrl-C; what was seen until then is here.
+    :param interrupted: the user has pressed Ctrl-C; what was seen until then is here.
     :param files: in which the functions of callbacks stand; empty where that is not known.
     :param labels: names of the callbacks that have begun.
     """
@@ -132,7 +132,7 @@ class _Watch:
                 try:
                     self._note(row)
                 except (ValueError, KeyError, TypeError, AttributeError, IndexError):
-                    continue  # somebody else has written there
+                    continue  # another process has written there
             if not found.started and time.monotonic() - begun > START_S:
                 break
             if ended:

@@ -173,8 +173,8 @@ class Callback:
     :param branch: which of these; callbacks of one branch are there together.
     :param takes_info: its function needs the information of a message, or of the call of a timer,
         which only some releases of rclpy pass.
-    :param askers: of a service, how many requests at a time may be on their way from the clients
-        in sight, where several may.
+    :param askers: of a service, how many requests at a time may be on their way from the known
+        clients, where several may.
     :param library: made by a library on the node's behalf (tf, message_filters …).
     :param builtin: made by rclpy itself; nobody wrote it.
     :param pieces: objects that it publishes as a whole while others change them piece by piece, or
@@ -402,7 +402,7 @@ class Spec:
     :param name: UPPAAL identifier; with several nodes the name of the unit.
     :param activities: threads of the program's own, and ``main``, that run beside the executor.
     :param set_up: waits of the code that sets the unit up or ends it: ``main``, constructors, what
-        nobody in sight calls. They hold nobody up but that code, and no model has them.
+        no known code calls. They hold up only that code, and no model has them.
     :param nodes: the ROS nodes served, in the order of ``add_node``.
     :param entry: where this set-up starts (``arm.py:main``); units of different entries of one
         file are alternatives of each other.

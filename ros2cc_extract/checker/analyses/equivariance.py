@@ -89,7 +89,7 @@ class Exchange:
     """
     The exchange of two processes.
 
-    :param names: how other processes and arrays call the two; None if nobody does.
+    :param names: how other processes and arrays call the two; None if none does.
     :param slots: variables that change places, each to the other.
     :param channels: the same for channels.
     :param pointers: variables whose value is a name.

@@ -45,7 +45,7 @@ class Family:
     """
     Processes that can be exchanged.
 
-    :param names: how arrays and pointers call each; empty if nobody calls them.
+    :param names: how arrays and pointers call each; empty if none calls them.
     :param parts: the variables that are each one's own, in the same order for all.
     :param pointers: variables outside the parts that hold the name of one.
     :param picks: functions that choose the lowest name among some, by number.

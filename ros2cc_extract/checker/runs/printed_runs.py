@@ -2,7 +2,7 @@
 Runs that another program printed, found again among the transitions of a model.
 
 Such a run names locations and variables and may leave some out. It is walked through the plain
-semantics and then replayed like a path of our own, before anybody sees it.
+semantics and then replayed like a path of our own, before it is shown.
 """
 
 from __future__ import annotations

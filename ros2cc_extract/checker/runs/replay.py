@@ -1,5 +1,5 @@
 """
-Replays a path under the plain semantics before anybody sees it.
+Replay a path under the plain semantics before it is shown.
 
 An engine returns states; the edges between them, the formulae along them and the way the path
 ends are established here anew. A disagreement is a defect of this tool.
@@ -110,7 +110,7 @@ class Replayer:
         """
         Go round a cycle until a round ends where one began.
 
-        After one round, values that nobody reads may differ from those at its start, and
+        After one round, values that are never read may differ from those at its start, and
         processes that are alike may have changed places.
         """
         begun: dict[tuple[State, State], int] = {}

@@ -92,7 +92,7 @@ def _check(
     results: dict[Repository, Result],
     meter: Meter,
 ) -> None:
-    """Check what has changed; ``results`` holds what is known even when somebody ends it."""
+    """Check what has changed; ``results`` holds what is known even if it is interrupted."""
     from ros2cc_extract.cli.shared.output import write_atomically
     from ros2cc_extract.deadline import deadline_in
     from ros2cc_extract.jobs.pools import Processes

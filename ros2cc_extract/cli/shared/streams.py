@@ -42,7 +42,7 @@ class Watched(io.TextIOWrapper):
         """
         Write.
 
-        :raises InputError: when that cannot be done, but for a pipe that nobody reads any more.
+        :raises InputError: when that cannot be done, except for a pipe without a reader.
         """
         try:
             return super().write(text)

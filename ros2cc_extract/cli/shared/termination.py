@@ -24,7 +24,7 @@ class Termination:
 
     @property
     def is_asked(self) -> bool:
-        """Whether somebody has."""
+        """Whether the end was requested."""
         return self.number != 0
 
     @property

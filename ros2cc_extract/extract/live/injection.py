@@ -62,7 +62,7 @@ def user_to_enter(pid: int, *, other_user: bool) -> int:
     """
     The user that may read the script: ourselves, or the one we were asked to serve.
 
-    :raises InputError: when that is another user and nobody asked for it.
+    :raises InputError: if that is another user without a request for it.
     """
     try:
         user = user_of_process(pid)
@@ -83,7 +83,7 @@ def user_to_enter(pid: int, *, other_user: bool) -> int:
 @contextlib.contextmanager
 def private_folder() -> Iterator[Path]:
     """
-    Make a folder that nobody else can enter, or put another in the place of.
+    Make a folder that no other user can enter, or put another in the place of.
 
     :raises InputError: when the folder for temporary files lets others do so.
     """

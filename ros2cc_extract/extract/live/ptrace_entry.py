@@ -54,7 +54,7 @@ def enter(pid: int, script: Path, folder: Path, patience_s: float) -> None:
     """
     Start a script in a process; it runs when this returns, or has ended.
 
-    :param folder: empty, and nobody else's. Who is given up is let in late: when the folder has
+    :param folder: empty, and our own. A process that was given up enters late: if the folder has
         been taken away by then, nothing is run.
     :param patience_s: how long to wait for a thread that may be stopped, and for the interpreter.
     :raises OSError: when the process or the system refuses.
@@ -154,7 +154,7 @@ def _in_a_child(work: Callable[[], None], pid: int, deadline: float) -> None:
 
     Neither that nor Ctrl-C may end the child: it holds the thread in the middle of a call that is
     not its own, and letting go of it there ends the process. So it stays until that call is
-    done, and nobody waits.
+    done, and nothing waits for it.
 
     :raises OSError: with what a refusal says.
     :raises InputError: with the reason why it was given up.

@@ -26,7 +26,7 @@ def _runs_rclpy(process: Path) -> bool:
     try:
         is_own = user_of_process(int(process.name)) == os.geteuid()
         return is_own and _is_beside_us(process) and _LIBRARY in (process / 'maps').read_bytes()
-    except OSError:  # it has ended, or nobody may look at it
+    except OSError:  # it has ended, or we may not look at it
         return False
 
 

@@ -5,7 +5,7 @@ The call takes the locks of the dynamic linker and of malloc. A thread that was 
 held one of them, or while another thread waits for it to leave a condition variable, would wait
 for itself, and the process would stand for good. A thread that sleeps in a system call by which
 it waits for the network, a child, a signal or time holds none of them: neither the linker nor
-malloc makes such a call. A futex may be anybody's, the interpreter's lock included, so no thread
+malloc makes such a call. A futex may be any lock, the interpreter's included, so no thread
 that waits for one is chosen.
 """
 

@@ -96,7 +96,7 @@ def _loaded(path: Path, builder: Transformer[Any, Any]) -> Lark | None:
         return None
     try:
         data, memo = json.loads(content, object_pairs_hook=_with_numbers)
-        load: Any = Lark._load_from_dict  # of which lark says no types
+        load: Any = Lark._load_from_dict  # lark has no types for it
         parser: Lark = load(data, memo, transformer=builder)
     except (*_UNUSABLE, LarkError):
         return None

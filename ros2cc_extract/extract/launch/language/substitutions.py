@@ -28,7 +28,7 @@ class Configuration:
 
 @dataclass(frozen=True)
 class Variable:
-    """``EnvironmentVariable``, ``$(env …)``: known to nobody before the launch."""
+    """``EnvironmentVariable``, ``$(env …)``: unknown before the launch."""
 
     name: Expression
     default: Expression | None = None

@@ -24,7 +24,7 @@ class Activity:
 
 class Asked:
     """
-    A callback that is ready, and for which its group is asked.
+    A ready callback whose group is asked.
 
     :param last: when that was the last time.
     """

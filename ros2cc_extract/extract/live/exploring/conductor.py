@@ -66,7 +66,7 @@ class Conductor:
 
     def run(self, row: dict[str, Any]) -> None:
         """
-        Run one schedule: take control, let go, and look where somebody stands.
+        Run one schedule: take control, let go, and look where threads stand.
 
         :raises KeyError, ValueError, TypeError: where the row is no schedule.
         """

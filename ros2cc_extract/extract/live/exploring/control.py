@@ -3,7 +3,7 @@ Lets one callback at a time go on, from one point of control to the next.
 
 Points are the begin of a callback, and the instructions that the plan names: waits, locks, and
 accesses of shared data. A thread at one is held until it is chosen. A thread on its way that
-stands still, because it really waits, is no longer waited for; so nobody is held forever, and
+stands still, because it really waits, is no longer waited for; so no thread is held forever, and
 what only the schedule keeps back is never taken for a hang.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
@@ -27,7 +27,7 @@ from .stillness import Rest, Way
 _STALE_S = 0.4
 # One that may begin and does not waits for a thread, or its group was closed meanwhile.
 _TAKES_UP_S = 0.15
-# Nobody is ready any more; what a callback has published has arrived by then.
+# Nothing is ready any more; what a callback has published has arrived by then.
 _EXHAUSTED_S = 0.5
 
 
@@ -38,8 +38,8 @@ class Control:
     :param begun: called with each callback of the program that begins.
     :param known: labels of callbacks that may be ready soon.
     :param refuses: one that may not begin yet is refused, and asked for again; else it waits, if
-        that holds nobody else, and may begin at once where nobody is sure to ask again.
-    :param is_open: everybody goes on as without control.
+        that holds up no other, and may begin at once if it is not sure to be asked for again.
+    :param is_open: all threads go on as without control.
     :param choices: the chosen threads, and where each stood.
     :param choosable: the candidates of each choice.
     :param rounds: after how many choices no thread was on its way any more.
@@ -91,7 +91,7 @@ class Control:
         """
         Take control: from now on the policy decides.
 
-        :param once: each callback begins but once, and nobody is chosen before all others are held
+        :param once: each callback begins but once, and none is chosen before all others are held
             or stand still; so the same choices lead to the same choice again.
         """
         with self._changed:
@@ -110,7 +110,7 @@ class Control:
         self.is_closed = True
 
     def let_go(self) -> None:
-        """Let everybody go on."""
+        """Let all threads go on."""
         with self._changed:
             self._policy, self.is_closed = None, False
             for held in self._held.values():
@@ -230,12 +230,12 @@ class Control:
 
     @property
     def is_exhausted(self) -> bool:
-        """Whether there was nobody to choose from for a while, after the first choice."""
+        """Whether there were no candidates for a while, after the first choice."""
         return bool(self.choices) and time.monotonic() - self.idle_since > _EXHAUSTED_S
 
     @property
     def is_quiet(self) -> bool:
-        """Whether nobody of the program is at work."""
+        """Whether no thread of the program is at work."""
         return not self.running
 
     def _send(self, activity: Activity) -> None:

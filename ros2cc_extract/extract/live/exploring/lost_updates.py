@@ -47,7 +47,7 @@ class Accesses:
         self._lost: dict[str, Any] | None = None
 
     def before(self, mark: Mark, frame: FrameType) -> None:
-        """The thread is about to run a marked instruction, and nobody holds it any more."""
+        """The thread is about to run a marked instruction, and is no longer held."""
         if mark.kind != WRITE or not mark.rests or mark.attribute not in self._read:
             return
         owner = _owner(frame, mark)

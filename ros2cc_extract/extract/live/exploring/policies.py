@@ -48,7 +48,7 @@ class Policy(Protocol):
 
     @property
     def is_over(self) -> bool:
-        """Whether everybody may go on from now on."""
+        """Whether all threads may go on from now on."""
 
 
 class Priorities:

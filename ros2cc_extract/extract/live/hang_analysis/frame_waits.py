@@ -185,7 +185,7 @@ def _entered(node: ast.With, frame: Frame) -> list[ast.withitem]:
 
 
 def _entering(node: ast.With | ast.AsyncWith, frame: Frame) -> list[ast.withitem]:
-    """The item of which the frame stands at the beginning; several where it is not known."""
+    """The item at whose beginning the frame stands; several if it is not known."""
     whole = _is_at(node, frame)  # all items have the place of the statement in Python 3.11
     here = [item for item in node.items if whole or _is_at(item.context_expr, frame)]
     return here if frame.item is None else here[frame.item : frame.item + 1]

@@ -84,7 +84,7 @@ class Hook:
             sys.meta_path.insert(0, _Finder(self._wrap_at_once, self.recorder.lose))
 
     def _wrap_at_once(self, executors: Any) -> None:
-        """Wrap what was loaded just now, so that nobody can have made an executor yet."""
+        """Wrap what was loaded just now, before any code can have made an executor."""
         self.recorder.sees_every_executor = self.wrap(executors)
         if self.afterwards is not None:
             self.afterwards()

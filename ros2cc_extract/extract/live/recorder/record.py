@@ -105,7 +105,7 @@ class Recorder:
             node = self._node_behind(node)
             home, record = self.note_executor(executor), self.note_node(node)
             if home.threads is None:
-                # Its constructor has ended; it may be gone before anybody looks again.
+                # Its constructor has ended; it may be gone before the next look.
                 home.threads = thread_count(executor)
             if record.enter(home.number):
                 for group in self._groups_of(node):

@@ -149,7 +149,7 @@ class _Stretches:
                 yield begin, lane, event
 
     def _take_lane(self, track: int) -> int:
-        """The first that nobody is in."""
+        """The first that is free."""
         if self._free[track]:
             return heappop(self._free[track])
         self._lanes[track] += 1

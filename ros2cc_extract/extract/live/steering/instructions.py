@@ -28,7 +28,7 @@ def has_global_lock() -> bool:
 
 
 def allow_instructions() -> None:
-    """Before ``sys.settrace``: Python 3.12 asks only there whether anybody wants instructions."""
+    """Before ``sys.settrace``: Python 3.12 asks only there whether a tracer wants instructions."""
     sys._getframe().f_trace_opcodes = True
 
 

@@ -113,7 +113,7 @@ class Race:
         """
         Hold this thread until another one has written.
 
-        :return: what that one wrote, in a tuple; an empty one if nobody did in time; `None` if
+        :return: what that one wrote, in a tuple; an empty one if none did in time; `None` if
             this thread was not held.
         """
         with self._changed:

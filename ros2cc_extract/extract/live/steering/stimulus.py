@@ -3,7 +3,7 @@ Gives a node from outside what it waits for.
 
 As ``python stimulus.py READY VALUES AT_ONCE DEFAULTS FILLED``. Publishes on every topic that a
 node of the domain subscribes to, calls every service, sends goals to every action server, and
-offers what the clients of the domain ask for and nobody offers. All messages are filled by default
+offers what the clients of the domain ask for without a server. All messages are filled by default
 at first, later with VALUES, a JSON list of texts and numbers that the program compares with;
 without DEFAULTS (0) always with these, without FILLED never. Of each service, AT_ONCE requests are
 on their way at a time. The file READY is made once all that was seen at first is offered.

@@ -1,5 +1,5 @@
 """
-Whether what a node meets outside is there; what it asks of nobody is lost for good.
+Whether what a node meets outside is there; a request without a server is lost for good.
 
 Runs inside the user's process: the standard library only.
 """

@@ -265,7 +265,7 @@ class Effects(Waits):
                 name = self.lock_name(option, option.state.kind)
                 if name in self.world.held and option.state.kind in _RE_ENTRANT:
                     self.world.held = (*self.world.held, name)
-                    continue  # its holder takes it once more and waits for nobody
+                    continue  # its holder takes it once more and does not wait
                 act = Act(
                     name=name,
                     source=place,
@@ -364,7 +364,7 @@ def _holds_lock(owner: Instance) -> bool:
 
 
 def _is_assigned(cls: Value, name: str) -> bool:
-    """Whether a method assigns the attribute that nobody has made yet."""
+    """Whether a method assigns the attribute that was not made yet."""
     return any(
         name in reassigned_attributes(base.node)
         for base in getattr(cls, 'mro', ())

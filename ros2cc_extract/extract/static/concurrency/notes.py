@@ -50,7 +50,7 @@ class Notes(Effects):
     def note_branch(
         self, node: ast.If, found: Set[str], place: Place, frame: Frame, *, is_first: bool
     ) -> None:
-        """A test may find a flag down, or ask for what somebody notifies of."""
+        """A test may find a flag down, or ask for what other code notifies of."""
         reading = self.world.reading
         if is_first:
             flag_locks.note_test(
@@ -65,7 +65,7 @@ class Notes(Effects):
         lost_notifications.note_test(self.world, node.test, place, reading.tests[place])
 
     def asked_by_loop(self, node: ast.While, names: frozenset[str], place: Place) -> Asked:
-        """A loop may ask for what somebody notifies of."""
+        """A loop may ask for what other code notifies of."""
         return lost_notifications.note_test(self.world, node.test, place, names, repeats=True)
 
     def note_return(self, node: ast.Return, frame: Frame, found: Set[str]) -> None:
@@ -110,6 +110,6 @@ class Notes(Effects):
         """
         for thing in reached(value):
             known = self.world.given.get(id(thing))
-            # What a queue does with it may be seen in the end; nobody sees what others do.
+            # What a queue does with it may be seen in the end; what others do is not seen.
             if known is None or (known.reason != reason and 'queue' in known.reason):
                 self.world.given[id(thing)] = Unknown(reason, place)

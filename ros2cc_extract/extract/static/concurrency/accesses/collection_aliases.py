@@ -49,7 +49,7 @@ def object_name(owner: Instance | Class, cls: Class) -> str:
 
 
 def is_reassigned(owner: Instance, attribute: str) -> bool:
-    """Whether a method stores another one there: then the names part, nobody knows when."""
+    """Whether a method stores another one there: then the names part at an unknown time."""
     return any(
         isinstance(cls, Class) and attribute in reassigned_attributes(cls.node)
         for cls in owner.mro

@@ -5,7 +5,7 @@ Code that finds a flag down and puts it up holds it, as a lock, until it is put 
 done-callback takes over what its maker holds, and the execute callback of an action server what
 the goal callback holds wherever it accepts; where that has only found a flag down, the execute
 callback may put it up. Whether the test and the setting are one piece, and
-nobody else puts the flag down, is for the reader of the accesses to say.
+no other code puts the flag down, is decided by the reader of the accesses.
 """
 
 from __future__ import annotations

@@ -54,7 +54,7 @@ def is_counter(world: ConcurrentWorld, thing: Instance) -> bool:
     """
     Whether a semaphore begins with nothing to take: others must give first, so it is no lock.
 
-    What the set-up gives is there before anybody takes it.
+    What the set-up gives is there before any callback takes it.
     """
     if thing.slots.get(INITIAL) != Const(0):
         return False

@@ -1,5 +1,5 @@
 """
-Threads of which only one runs at a time, as each begins only when the one before has ended.
+Threads that run one at a time, as each begins only when the one before has ended.
 
 ``if self.worker is not None and self.worker.is_alive(): return``, and then a new thread is stored
 there and started. Test and start must be in one piece: under one lock, or in callbacks

@@ -1,7 +1,7 @@
 """
-Whether somebody waits already when a condition is notified.
+Whether a wait has begun already when a condition is notified.
 
-A condition forgets a ``notify`` that comes while nobody waits (CPython 3.12, ``threading.py``,
+A condition forgets a ``notify`` that comes while nothing waits (CPython 3.12, ``threading.py``,
 ``Condition.notify``). It reaches code that has asked, in the same hold of the lock, for what the
 notifier writes, or has begun in that hold what notifies: that cannot go on before the wait.
 """
@@ -103,7 +103,7 @@ def guard_of(world: ConcurrentWorld, condition: Instance) -> Guard:
         (n for n in world.held if any(each is lock for each, _ in locks_named(n, world))), None
     )
     if name is None:
-        # Somebody else has taken it, in a way that was not followed.
+        # Other code has taken it, in a way that was not followed.
         return Guard(None, frozenset(), is_open=True)
     hold = name, world.holds.get(name, 0)
     reading = world.reading
@@ -132,7 +132,7 @@ class Notifier:
 
 
 def is_heard(guard: Guard, notifiers: list[Notifier]) -> bool:
-    """Whether what ends the wait cannot be lost before it, or nobody can say so."""
+    """Whether what ends the wait cannot be lost before it, or that is unknown."""
     begun = (each for each in notifiers if not each.waking.conditional)
     if guard.hold is None or any(each.place in guard.begun for each in begun):
         return True

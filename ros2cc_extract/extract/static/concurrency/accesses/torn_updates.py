@@ -95,7 +95,7 @@ def _object(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> str | N
 
 
 def _whole(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> str | None:
-    """The attribute that holds the object of ``node``, or one of which it is a part."""
+    """The attribute that holds the object of ``node``, or a whole that it is part of."""
     for _ in range(_DEPTH):
         if isinstance(node, ast.Subscript):
             node = node.value

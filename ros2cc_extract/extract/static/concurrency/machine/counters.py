@@ -43,7 +43,7 @@ class Rise:
         """
         How many writes are missing; ``None`` where that is not known.
 
-        :param first: what is stored there before anybody writes.
+        :param first: what is stored there before the first write.
         :param mine: how many writes the waiting code has made before.
         """
         values: list[float] = [value.value for value in first if isinstance(value, Const)]

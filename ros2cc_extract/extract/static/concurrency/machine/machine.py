@@ -47,7 +47,7 @@ class ConcurrentMachine(Machine, ABC):
         place: Place,
         spun: tuple[Instance, ...] = (),
     ) -> None:
-        """A loop goes on until somebody else has written what its test reads."""
+        """A loop goes on until other code has written what its test reads."""
 
     @abstractmethod
     def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:

@@ -185,7 +185,7 @@ class ConcurrentWorld(World):
     :param wakings: what is done to an object that others may wait on, by its identity.
     :param asked: marks of questions that the function has asked.
     :param made_at: identities of the objects that others may wait on, by the place they come from.
-    :param other_writes: data that is written by what nobody in sight calls, with its name, or
+    :param other_writes: data that is written by what no known code calls, with its name, or
         after the spin has ended, with ``None``.
     :param writes_beside: data that the set-up writes when it has started a thread, or has spun.
     :param cleared: events that code clears: which and where, and how many entities there were.
@@ -197,7 +197,7 @@ class ConcurrentWorld(World):
     :param kept_in: the attribute that an object others may wait on was stored in last, and
         ``met_meanwhile`` what such attributes held while the set-up waited for it.
     :param left_callbacks: of futures that were not complete, see ``done_callbacks.py``; and
-        ``completed`` the identities of those futures that somebody completes.
+        ``completed`` the identities of those futures that code completes.
     :param activities: all of them, in the order of their start.
     :param followed_count: how many of them were followed for what they do.
     :param loop: where the loop of asyncio begins that runs the set-up.
@@ -220,7 +220,7 @@ class ConcurrentWorld(World):
         then put it up, see ``flag_locks.py``.
     :param ended: attributes whose thread has ended, by the step of the path, and the holds then.
     :param claims: the threads that were stored in such an attribute since, with those holds.
-    :param unguarded: attributes of which a thread is stored, or forgotten, without such a test.
+    :param unguarded: attributes where a thread is stored, or forgotten, without such a test.
     :param found_down: flags that the last function found down wherever it turned no goal down.
     :param still_down: those that were down when the goal was accepted which is executed.
     :param outside: what code waits for that is no callback.

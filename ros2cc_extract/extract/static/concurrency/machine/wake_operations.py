@@ -43,7 +43,7 @@ class Guard:
 
     :param hold: of the lock of the condition; ``None`` where that was not followed.
     :param names: of the data that was asked for in that hold.
-    :param is_open: something was asked for besides.
+    :param is_open: something else was asked for too.
     :param begun: where something is made or started in that hold.
     """
 
@@ -88,7 +88,7 @@ class Waking:
     """
     An operation that may end a wait of others.
 
-    :param by: a callback or an activity; ``None`` for the set-up, and for what nobody in sight
+    :param by: a callback or an activity; ``None`` for the set-up, and for what no known code
         calls.
     :param behind: the last wait of ``by`` before it, see ``EffectLog.behind``.
     :param spins: of the set-up, how many spins of its own thread are over, but for those of a loop
@@ -123,7 +123,7 @@ class Waking:
 
 class DataRef(EntityRef):
     """
-    Stands for plain data that a loop waits for somebody else to write.
+    Stands for plain data that a loop waits for other code to write.
 
     :param names: what the test reads.
     :param before: what the loop's own callback has written before the loop, and where.
@@ -145,7 +145,7 @@ class ClockRef(EntityRef):
 
 
 class TopicRef(EntityRef):
-    """Stands for the topic of which somebody waits for a message."""
+    """Stands for the topic of an awaited message."""
 
     number = 0
 

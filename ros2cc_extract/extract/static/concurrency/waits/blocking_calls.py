@@ -147,7 +147,7 @@ class Waits(ConcurrentMachine):
         place: Place,
         spun: tuple[Instance, ...] = (),
     ) -> None:
-        """A loop goes on until somebody else has written what its test reads."""
+        """A loop goes on until other code has written what its test reads."""
         world, effects = self.world, self.world.effects
         block = Blocking(
             call=name,
