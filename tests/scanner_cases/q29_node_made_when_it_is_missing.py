@@ -1,4 +1,4 @@
-"""A node that is made only while there is none is one node, whoever asks for it first."""
+"""A node that is made only while there is none is one node, no matter what asks for it first."""
 # live: no, no known code turns the lamp on
 
 import threading

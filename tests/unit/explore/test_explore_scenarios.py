@@ -1,4 +1,4 @@
-"""What is written of a failure, read again; and what is told of it."""
+"""What is written of a failure, read again; and what is reported of it."""
 
 from __future__ import annotations
 

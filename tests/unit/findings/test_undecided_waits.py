@@ -1,4 +1,4 @@
-"""CC120 and CC121: a wait that no model decides is told, once, and weighs with ``--strict``."""
+"""CC120 and CC121: a wait that no model decides is reported once, and weighs with ``--strict``."""
 
 from __future__ import annotations
 

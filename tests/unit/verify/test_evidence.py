@@ -1,4 +1,4 @@
-"""Runs told in the words of the model's own comments."""
+"""Runs described in the words of the model's own comments."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Functions, events and futures that go through a queue to whoever takes them out."""
+"""Functions, events and futures that go through a queue to its consumer."""
 
 from __future__ import annotations
 
