@@ -68,7 +68,7 @@ class Freedom:
         all that arrive.
     :param nested: how many callbacks may spin on one thread at a time, one inside the other;
         ``None`` for all that there can be.
-    :param observed: for comparison with executions. Answers of a service to somebody else wake
+    :param observed: for comparison with executions. Answers of a service to other clients wake
         its other clients too (Fast DDS); an awaited callback has to end once more, not once; a
         guard condition that was triggered in a closed group is looked at whenever the executor
         is woken; two workers may change places between the queue and the group; groups open

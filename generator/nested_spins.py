@@ -57,7 +57,7 @@ class NestedSpin:
 
     :param node: the node that the global executor gets.
     :param needed: name of the callback that must run before it ends; ``None`` where it ends
-        otherwise, or nobody knows.
+        otherwise, or it is unknown.
     :param is_timed: it also ends by itself, or for a reason that is not known.
     """
 
@@ -91,7 +91,7 @@ def nested_spins(callback: Callback, spec: Spec) -> Iterator[tuple[Blocking, Nes
     Give the nested spins of a callback in their order, and what the model has of each.
 
     There is nothing where another executor, or a node of another one, is spun; one that serves
-    nobody here, and whose end is known, is left out.
+    nothing here, and whose end is known, is left out.
     """
     loops = [block for block in callback.blocking if block.call == _BUSY_WAIT]
     for block in callback.blocking:
@@ -103,7 +103,7 @@ def nested_spins(callback: Callback, spec: Spec) -> Iterator[tuple[Blocking, Nes
 
 
 def is_open(spin: NestedSpin | None) -> bool:
-    """True where nobody knows whether it comes to an end."""
+    """True if it is unknown whether it comes to an end."""
     return spin is None or (spin.end is SpinEnd.NOTHING and spin.is_timed)
 
 

@@ -18,7 +18,7 @@ def left_out_of_models(callback: Callback, spec: Spec) -> tuple[str, ...]:
 
     A service that nobody in the unit offers may be absent; so may code that sets an event, or
     makes a future done, that could not be followed. And a run that had not ended when it was
-    recorded may wait for what nobody here knows of.
+    recorded may wait for what is unknown here.
     """
     found: dict[object, str] = {}
     for block in unknown_ends(callback, spec):

@@ -46,7 +46,7 @@ class Resource:
     :param is_each: a signal ends one wait; else the first ends all, for good.
     :param initial: how many waits end without a signal.
     :param least: of what ends for good, how many signals that takes.
-    :param forgets: a signal is lost while nobody waits.
+    :param forgets: a signal is lost while nothing waits.
     :param given_by: of what ends for good, what ends it, and where: what ends one wait for it may
         come too early for another.
     """
@@ -69,8 +69,8 @@ class NamedWait:
     :param lock: what it waits for, to keep it over the next wait if that holds it.
     :param held: locks that are held meanwhile, outermost first.
     :param resource: that it waits for, or gives a signal to.
-    :param begun: starts of which one must have been given: what is waited for is not there before.
-    :param may_skip: a branch may skip it; of a signal, then nobody knows whether it comes.
+    :param begun: starts; one of them must have been given: what is waited for is not there before.
+    :param may_skip: a branch may skip it; of a signal, then it is unknown whether it comes.
     :param is_open: something that the model does not have may end it, or nothing does.
     :param origin: place in the specification, with ``block`` or ``waker``.
     """

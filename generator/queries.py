@@ -129,7 +129,7 @@ def waits(callback: UnitCallback) -> bool:
 IN_DOUBT = 'in_doubt'
 #: Families whose claims rest on every callback coming to its end.
 _OF_ENDS = (Family.DEADLOCK, Family.STARVATION, Family.PROGRESS, Family.POOL_EXHAUSTION)
-#: Families about a callback in the midst of which others may run, in a nested spin.
+#: Families about a callback that others may run inside of, in a nested spin.
 _OF_OVERLAP = (
     Family.NEVER_TOGETHER,
     Family.CAN_OVERLAP,
@@ -336,7 +336,7 @@ def _serial(unit: Unit) -> Query:
 
 
 def _spun_for(callback: UnitCallback) -> tuple[int, ...]:
-    """Places of the callbacks for which a callback spins."""
+    """Places of the callbacks that a callback spins for."""
     return tuple(wait.place for wait in callback.waits if wait.spin and wait.is_for_callback)
 
 

@@ -2,7 +2,7 @@
 Waits whose wakers the specification names: what they are for, and what ends them.
 
 A wait that time or code outside ends is not in the model, which has no clock: the callback
-that waits runs on. One that somebody unknown may end is open: it may be left at any moment, and
+that waits runs on. One that unknown code may end is open: it may be left at any moment, and
 it may stay until a waker that is known ends it.
 """
 
@@ -22,7 +22,7 @@ from ros2cc_extract.spec.model import Activity, Callback, CallbackType, GroupTyp
 Actor = Callback | Activity
 #: Names that stand for nothing in the unit.
 _BY_ITSELF = (OUTSIDE, TIME)
-# Waits for the end of a run, which nobody can wait for before it has been started: a thread that
+# Waits for the end of a run, which nothing can wait for before it has been started: a thread that
 # was not refuses to be joined, and a future of a job is made with the job.
 FOR_RUNS = ('Thread.join', 'Process.join', 'Future.result', 'Future.exception', 'futures.wait')
 
@@ -234,7 +234,7 @@ def start_of(activity: Activity, spec: Spec) -> Resource | None:
     """
     Give what starts an activity; ``None`` where it runs from the beginning, or may.
 
-    One that does nothing for anybody is not started, as models do not have it.
+    One that does nothing for others is not started, as models do not have it.
     """
     known = _known(spec)
     is_known = all(waker.by in known for waker in activity.starts)
@@ -318,7 +318,7 @@ def _must_run_once_more(block: Blocking, callback: Actor, spec: Spec) -> bool:
 
 
 def private_resource(block: Blocking, callback: Actor) -> Resource:
-    """What a wait is for of which nothing is known."""
+    """What an unknown wait is for."""
     return Resource(f'{callback.name} {callback.blocking.index(block)}', is_each=False)
 
 

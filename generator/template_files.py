@@ -1,4 +1,4 @@
-"""Which template files make up which text of which profile."""
+"""The template files of each text of each profile."""
 
 from __future__ import annotations
 

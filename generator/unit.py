@@ -172,7 +172,7 @@ class Unit:
 
     @property
     def has_forgetful(self) -> bool:
-        """True when signals are lost for which nobody waits."""
+        """True if signals without a waiter are lost."""
         return any(resource.forgets for resource in self.resources)
 
     @property
@@ -418,7 +418,7 @@ def _number_wait(
         spin=wait.spin,
         node=nodes.get(spun_node, 0),
         lock=locks.index(wait.lock) if wait.lock else None,
-        # A lock that nobody waits for keeps nobody out.
+        # A lock that nothing waits for keeps nothing out.
         held=frozenset(locks.index(lock) for lock in wait.held if lock in locks),
         resource=resource,
         begun=frozenset(resources.index(each) for each in wait.begun if each in resources),
@@ -465,7 +465,7 @@ def _start_of(activity: Activity, spec: Spec, resources: Sequence[Resource]) -> 
 
 
 def _begins_with_wait(own: Sequence[NamedWait], steps: Mapping[str, Sequence[NamedWait]]) -> bool:
-    """True where the first step is a wait for a signal that somebody gives."""
+    """True where the first step is a wait for a signal that is given."""
     resource = own[0].resource if own and not own[0].is_signal else None
     return resource is not None and any(gives(other, resource) for other in steps.values())
 

@@ -46,7 +46,7 @@ class UnitWait:
 
     @property
     def is_absent(self) -> bool:
-        """For a service that nobody may ever offer."""
+        """For a service that may never be offered."""
         return self.kind is WaitKind.ABSENT
 
     @property

@@ -46,7 +46,7 @@ def waits_of(callback: Actor, spec: Spec) -> tuple[NamedWait, ...]:
     """
     known = known_of(spec).setdefault(waits_of, {})
     if id(callback) not in known:
-        # Kept with its callback, lest another one gets its number.
+        # Kept with its callback, so that no other one gets its number.
         known[id(callback)] = callback, tuple(_waits_of(callback, spec))
     found: tuple[NamedWait, ...] = known[id(callback)][1]
     return found
@@ -113,7 +113,7 @@ def _for_others(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
 
 def _for_absent(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
     if isinstance(callback, Activity):
-        return  # it is taken that somebody outside offers it
+        return  # assumed: a node outside offers it
     for place, block in enumerate(callback.blocking):
         if is_absent(block, spec) and isinstance(block.on, str):
             held = _held_locks(block, callback, spec)
@@ -233,7 +233,7 @@ def is_unknown(block: Blocking, activity: Activity, spec: Spec) -> bool:
 
 
 def modelled_activities(spec: Spec) -> Iterator[Activity]:
-    """Give the activities of which something depends on, or that wait themselves."""
+    """Return the activities that something depends on, or that wait themselves."""
     for activity in spec.activities:
         if concerns_others(activity, spec) and any(waits_of(activity, spec)):
             yield activity
@@ -290,7 +290,7 @@ def is_absent(block: Blocking, spec: Spec) -> bool:
     """
     Return whether a wait without a time-out is for a service that nobody in the unit offers.
 
-    Where a callback waits for an answer of that client, somebody outside answers, and is there.
+    Where a callback waits for an answer of that client, a node outside answers, and is there.
     """
     if not asks_the_graph(block) or block.seconds is not None:
         return False

@@ -1,5 +1,5 @@
 """
-Which files nobody but this user, and root, can have changed.
+Which files only this user, and root, can have changed.
 
 What is handed to another process, or believed because we wrote it ourselves, must not be
 replaceable: not by its own mode, and not by a rename in a folder above it.

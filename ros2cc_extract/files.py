@@ -112,7 +112,7 @@ def read_regular(path: Path, most_bytes: int, *, follow: bool = True) -> bytes:
     """
     with open_regular(path, follow=follow) as stream:
         size = os.fstat(stream.fileno()).st_size
-        # Not ``most_bytes`` at once, for which as much memory would be laid out.
+        # Not ``most_bytes`` at once, which would allocate as much memory.
         content = b'' if size > most_bytes else stream.read(size + 1)
         if len(content) > size:
             content += stream.read(most_bytes + 1 - len(content))
@@ -160,7 +160,7 @@ def real_path(path: Path | str) -> Path:
 
 
 def too_large(path: Path, most_bytes: int) -> OSError:
-    """The error of a file that is larger than somebody is ready to read."""
+    """The error of a file that is larger than the limit."""
     return OSError(errno.EFBIG, f'it is larger than {most_bytes} bytes', str(path))
 
 

@@ -235,7 +235,7 @@ def _of_dataclass(kind: type[Any]) -> tuple[Function, Function]:
         if len(found) != len(own):
             raise PackingError(f'a field of {kind.__name__} is missing')
         value = object.__new__(kind)
-        # As unpickling does: a frozen class lets nobody set one field after the other.
+        # As unpickling does: a frozen class lets no code set one field after the other.
         object.__setattr__(value, '__dict__', found)
         checks(value)
         return value

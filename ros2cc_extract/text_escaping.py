@@ -3,7 +3,7 @@ Text that strangers wrote, for people to read: names, paths, topics, source line
 
 Such text may hold what a terminal obeys (ESC, C1), what makes one line look like two, or what
 turns the order of letters round (bidi controls). All that Python calls not printable is shown as
-its escape, as source would write it, so that everybody sees what is there. JSON and YAML have
+its escape, as source would write it, so that you see what is there. JSON and YAML have
 escapes of their own.
 """
 

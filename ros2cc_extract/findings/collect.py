@@ -132,7 +132,7 @@ def _matters(diagnostic: Diagnostic, releases: Collection[str | None]) -> bool |
 
 
 def is_unread(finding: Finding) -> bool:
-    """Whether it is about a file of which nothing could be read; that decides no exit status."""
+    """Whether it is about an unreadable file; that decides no exit status."""
     return finding.code == UNREADABLE.code and finding.severity is Severity.ERROR
 
 

@@ -96,7 +96,7 @@ def judge(
     Judge each promise of ``unit``.
 
     :param verification: by the model of rclpy's executors; by any other nothing is decided.
-    :param own: findings about the unit, also those that somebody has accepted.
+    :param own: findings about the unit, also accepted ones.
     :param near: findings in its files that may be about another unit.
     """
     judged = _Unit(unit, verification, own, near)

@@ -41,7 +41,7 @@ class _Offers:
     """
     Which node offers what.
 
-    :param are_all: nobody else may.
+    :param are_all: no other node may.
     :param names: identities of the units, in the order of the judgements.
     """
 

@@ -173,7 +173,7 @@ class Side:
     """
     What one release does to the units.
 
-    :param undecided: names of the units of which a limit left something open.
+    :param undecided: names of the units that a limit left partly open.
     """
 
     release: str
@@ -198,7 +198,7 @@ def changes(
 
 
 def not_compared(old: Side, new: Side) -> frozenset[str]:
-    """Names of the units with findings on one side of which the other side left some open."""
+    """Names of the units with findings on one side that the other side left partly open."""
     lacking = [
         (left or right, new if left else old)
         for left, right in _pairs(old, new)

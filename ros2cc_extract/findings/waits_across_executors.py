@@ -53,7 +53,7 @@ def _signed(rule: Rule, hits: tuple[Hit, ...], context: Context) -> Iterator[Fin
 
 
 def _undecided(joined: Joined, context: Context) -> Iterator[Hit]:
-    """Of waits that somebody on another executor ends."""
+    """Waits that a callback on another executor ends."""
     for hit in find_undecided(context):
         if any(_is_across(context.doer_by_name[name], hit, joined) for name in hit.subjects):
             yield hit
@@ -67,7 +67,7 @@ def _is_across(doer: Doer, hit: Hit, joined: Joined) -> bool:
 
 def without_reported(found: Iterable[Finding], reported: Iterable[Finding]) -> tuple[Finding, ...]:
     """
-    Leave out what a unit alone shows: a circle with a wait of which that says more.
+    Leave out what a unit alone shows: a circle with a wait about which the unit says more.
 
     A note only says what may happen to the wait, and no more than the circle.
     """

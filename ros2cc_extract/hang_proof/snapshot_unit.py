@@ -3,7 +3,7 @@ From a look at a hanging process to a unit of the model: one executor and what w
 
 The unit has the callbacks that wait forever by the wait-for graph, each with the wait in which it
 stands, and all callbacks that may end one of these waits. Others are left out: a callback that
-neither waits nor ends a wait holds nobody up forever, so a run with it is one without it. What
+neither waits nor ends a wait holds nothing up forever, so a run with it is one without it. What
 may end a wait is taken too wide, as in the graph.
 """
 

@@ -1,7 +1,7 @@
 """
 Jobs done by the workers of a Dask cluster.
 
-Dask hands the jobs of a worker that is lost to another. What nobody can do, because a job fails
+Dask hands the jobs of a worker that is lost to another. What no worker can do, because a job fails
 there, because no worker is left, or because the scheduler itself is gone, is done here.
 """
 
@@ -44,7 +44,7 @@ def cluster_at(address: str) -> DaskCluster:
     The cluster of the scheduler at ``address``.
 
     :raises ToolNotFoundError: when Dask is not installed.
-    :raises InputError: when nobody answers there.
+    :raises InputError: if no scheduler answers there.
     """
     if importlib.util.find_spec('distributed') is None:
         what = 'Dask is not installed here'

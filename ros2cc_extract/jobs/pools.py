@@ -2,7 +2,7 @@
 Lists of independent jobs: one interface for all that can do them.
 
 Jobs and answers are plain values, and an answer depends on its job alone. So nothing changes with
-who gives it, or with how often somebody begins: what others cannot finish is done here.
+its giver, or with how often it is begun: what others cannot finish is done here.
 """
 
 from __future__ import annotations

@@ -128,7 +128,7 @@ class ProcessPool(Generic[Request, Answer]):
     def _answers(
         self, requests: Sequence[Request], by: Sequence[int | None]
     ) -> Iterator[tuple[int, tuple[Answer, int]]]:
-        if not self._lines:  # nobody to wait for, perhaps because there are no processes here
+        if not self._lines:  # nothing to wait for, perhaps because there are no processes here
             return
         from multiprocessing.connection import wait
 
@@ -205,7 +205,7 @@ def _serve(
     """
     Answer until the parent hangs up, or is no more; an interrupt is the parent's to handle.
 
-    :param of_parent: the parent's ends of all lines: nobody hangs up while a child holds one.
+    :param of_parent: the parent's ends of all lines: a line stays open while a child holds one.
     """
     global _is_child
     _is_child = True

@@ -16,7 +16,7 @@ from ros2cc_extract.source_locations import Place
 MANIFEST = 'package.xml'
 MOST_BYTES = 1_000_000
 SKIP_MARKS = frozenset({'AMENT_IGNORE', 'COLCON_IGNORE', 'pyvenv.cfg'})
-"""Folders that hold one of these are nobody's source; ``colcon`` marks build, install and log."""
+"""Folders that hold one of these are no source; ``colcon`` marks build, install and log."""
 
 
 @dataclass(frozen=True)

@@ -103,7 +103,7 @@ class Outcome:
     :param accepted: how many findings a comment or the baseline accepts.
     :param promises: of each unit, what is proven, broken and undecided.
     :param system: what launch files among the paths start.
-    :param interrupted: somebody has ended it before all units were verified.
+    :param interrupted: it was ended before all units were verified.
     :param answers: of a shard, what is known of its units, by ``Task.key``.
     """
 
@@ -147,7 +147,7 @@ class Outcome:
 
     @property
     def undecided_waits(self) -> tuple[Finding, ...]:
-        """Waits of which it is open whether they end."""
+        """Waits that are undecided."""
         return tuple(finding for finding in self.findings if finding.code == UNDECIDED_WAIT)
 
     @property
@@ -160,7 +160,7 @@ class Outcome:
 
 
 def _has_callbacks(unit: Spec) -> bool:
-    """Whether there is any that somebody wrote, or that somebody waits for."""
+    """Whether there is any that a user wrote, or that code waits for."""
     waited = waited_for(unit)
     return any(not each.builtin or each.name in waited for each in unit.callbacks)
 
@@ -230,7 +230,7 @@ def _units_of(job: Job, extraction: Extraction) -> tuple[tuple[Spec, ...], list[
     ]
     pairs = zip(units, with_arrivals(units), strict=True)  # the sender may be in another shard
     own = [pair for pair in pairs if job.shard is None or job.shard.holds(pair[0])]
-    # Verdicts that nobody will see are not asked for.
+    # Verdicts that will not be shown are not asked for.
     options = job.options if job.shows_verdicts else judging_options(job.options)
     tasks = [Task(each, close(unit, job.policy), options, job.keeps_runs) for unit, each in own]
     return tuple(unit for unit, _ in own), tasks
@@ -275,7 +275,7 @@ def _findings(
 def _promises(
     tasks: Sequence[Task], examined: Sequence[Examined], findings: Sequence[Finding]
 ) -> Iterator[tuple[Judgement, ...]]:
-    """What somebody has accepted breaks a promise all the same."""
+    """An accepted finding breaks a promise all the same."""
     units = [task.unit for task in tasks]
     for task, each in zip(tasks, examined, strict=True):
         of_others, near = about(findings, task.unit, units)

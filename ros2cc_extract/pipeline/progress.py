@@ -26,7 +26,7 @@ class Meter:
         """So many are done, of so many."""
 
     def search(self, title: str) -> SearchProgress | None:
-        """What shows the states of one long search, where somebody looks."""
+        """What shows the states of one long search, if it is watched."""
         return None
 
 

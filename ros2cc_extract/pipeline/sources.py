@@ -32,7 +32,7 @@ FOREIGN_SUFFIXES = (
     '.toml',
     '.xml',
 )
-"""Of files that nobody means as Python, though one of plain words would parse."""
+"""Suffixes of files that are not meant as Python, though one of plain words would parse."""
 STANDARD_INPUT = Path('-')
 MOST_BYTES = 64_000_000
 RECORDING_SUFFIX = '.json'

@@ -95,7 +95,7 @@ def _kept_result(result: QueryResult, with_runs: bool) -> QueryResult:
 
 
 def unasked(task: Task, reason: str) -> Examined:
-    """A unit that nobody has come to."""
+    """A unit that was not reached."""
     shown = undecided_unit(task.closed, task.options, reason)
     judged = undecided_unit(task.closed, task.judging, reason) if task.judging else shown
     return Examined(shown, judged, _findings(task, judged))

@@ -1,8 +1,8 @@
 """
 Verdicts and findings of many units: from the cache, or by a pool of workers.
 
-What travels between processes is plain data, and what the cache keeps is JSON. A run that nobody
-has asked for stays behind; asking for it later verifies the unit once more.
+What travels between processes is plain data, and what the cache keeps is JSON. A run that was
+not asked for stays behind; asking for it later verifies the unit once more.
 """
 
 from __future__ import annotations
@@ -73,8 +73,8 @@ class Examination:
     """
     All units.
 
-    :param found: what is known of them as plain data; ``None`` where nobody has come to it.
-    :param interrupted: somebody has ended it: what was not reached by then is undecided.
+    :param found: what is known of them as plain data; ``None`` if it was not reached.
+    :param interrupted: it was ended: what was not reached by then is undecided.
     """
 
     units: tuple[Examined, ...]
@@ -165,7 +165,7 @@ def _interrupted(task: Task) -> Examined:
 
 @dataclass(frozen=True)
 class _Later:
-    """The answers that hold for parts of other units too, when somebody asks for them."""
+    """The answers that hold for parts of other units too, on demand."""
 
     folder: Path | None
     version: str

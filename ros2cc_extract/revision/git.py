@@ -1,5 +1,5 @@
 """
-Asks git, of a repository that may be anybody's, what it holds.
+Ask git what an untrusted repository holds.
 
 Settings of the repository may name programs to be run. None of them is: only commands that
 look up objects are used, what they could start all the same is switched off, and nothing is

@@ -23,7 +23,7 @@ MOST_ENTRIES = 1_000_000
 MOST_LINKS = 40
 LONGEST_PATH = 4096
 KEPT_BYTES = 8_000_000
-"""Of a larger file nobody here has a use for more than its size."""
+"""Of a larger file only its size is used here."""
 _MODULES_IN_MODULES = 16
 _LINK, _MODULE = '120000', '160000'
 _NO_NAMES = frozenset({'', '.', '..', '.git'})

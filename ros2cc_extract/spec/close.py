@@ -29,7 +29,7 @@ class Policy:
     """
     How holes are closed.
 
-    :param builtin: keep the entities nobody wrote in the model.
+    :param builtin: keep rclpy's own entities in the model.
     :param threads: number of worker threads, instead of what the unit says.
     :param rclpy: version of rclpy, instead of the one that the unit names, if any.
     """

@@ -24,7 +24,7 @@ OUTSIDE = 'outside'
 TIME = 'time'
 
 BY_ITSELF = 'of these waits end by themselves'
-"""Why a wait is left open of which only so many end without a waker, as of a bounded queue."""
+"""Why a wait is left open if only so many end without a waker, as of a bounded queue."""
 
 UNKNOWN_WAIT = 'unknown wait'
 """A call that waits by its name, on something that could not be followed."""
@@ -33,7 +33,7 @@ NOT_FOLLOWED = 'code that is not followed'
 """The rest of what is too long to be followed, or too late: there may be any wait in it."""
 
 WORKING_LOOP = 'working loop'
-"""A loop in which a thread works until somebody ends it: only its end is waited for."""
+"""A loop in which a thread works until it is ended: only its end is waited for."""
 
 POLLING_LOOP = 'polling loop'
 """A loop that does nothing but wait until what it asks for has changed."""
@@ -94,7 +94,7 @@ class Blocking:
     :param needs: ``ONCE``: one waker, for good (event, future, end of a thread); ``EACH``: one
         waker for each wait (condition, queue, semaphore); ``ALL``: every waker (barrier, several).
     :param signals: of ``ONCE``: how many of them, or how often one, as of a number that grows.
-    :param forgets: of ``EACH``: what a waker does while nobody waits is lost (a condition that is
+    :param forgets: of ``EACH``: what a waker does while nothing waits is lost (a condition that is
         waited on without asking first).
     :param initial: of ``EACH``, how many waits end without a waker: the value of a semaphore, the
         room in a queue. With ``escapes`` runs before may have used them up.
@@ -110,7 +110,7 @@ class Blocking:
     :param unsent: the topics whose messages end it, if the publishing code of this program
         does not run before.
     :param at_end: of a thread, where the program ends the wait when its spin is over.
-    :param repeats: a loop of which nobody knows how often it goes round stands between one of the
+    :param repeats: a loop with an unknown number of rounds stands between one of the
         locks held and the wait.
     :param recursive: the loop is a function that calls itself: Python ends it by a RecursionError
         after ``RECURSION_LIMIT`` calls.

@@ -94,11 +94,11 @@ class Endpoint:
 @dataclass(frozen=True, kw_only=True)
 class Awaited:
     """
-    A service or action for which the set-up of a program waits without an end.
+    A service or action that the set-up of a program waits for without an end.
 
     :param client: place of the client of it.
     :param place: of the wait.
-    :param answers: it waits for an answer, not only until somebody offers it.
+    :param answers: it waits for an answer, not only until a node offers it.
     """
 
     client: Place

@@ -1,4 +1,4 @@
-"""Asks queries that somebody has written: of a model file, or of the model of a unit."""
+"""Ask queries that a user has written: of a model file, or of the model of a unit."""
 
 from __future__ import annotations
 

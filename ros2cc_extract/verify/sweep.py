@@ -62,7 +62,7 @@ class Sweep:
 
     def least_threads(self) -> int | None:
         """
-        Give the smallest thread count from which on nobody waits forever.
+        Give the smallest thread count from which on nothing waits forever.
 
         Of the counts that were asked, with every arrival bound; ``None`` if none of them will
         do, or if the profile does not ask.

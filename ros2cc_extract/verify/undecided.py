@@ -24,7 +24,7 @@ def undecided_unit(closed: ClosedSpec, options: Options, reason: str) -> Verific
 
 
 def is_defect(error: Exception) -> bool:
-    """Whether verifying a unit has failed by our own fault, and nobody asks for the traceback."""
+    """Whether verifying a unit has failed by our own fault, and no traceback is asked for."""
     is_of_model = isinstance(error, ModelFormatError | CoreMismatchError)
     by_us = is_of_model or not isinstance(error, Ros2ccError)
     return by_us and not os.environ.get('ROS2CC_TRACEBACK')
@@ -34,7 +34,7 @@ def failed_unit(closed: ClosedSpec, options: Options, error: Exception) -> Verif
     """
     Report an error of our own model as a defect of this tool.
 
-    The model was made here, of a unit without holes, so nobody else can mend it.
+    The model was made here, of a unit without holes, so only we can mend it.
     """
     message = ' '.join(str(error).split())[:LONGEST_MESSAGE]
     defect = f'{type(error).__name__}: {message}'

@@ -30,7 +30,7 @@ _Use = Callback | Activity
 
 
 def shared_by(context: Context) -> tuple[Callback, ...]:
-    """The callbacks somebody wrote, with their accesses as flags leave them."""
+    """The user's callbacks, with their accesses as flags leave them."""
     return as_shared(context.written, context)
 
 
@@ -116,8 +116,8 @@ def _answer_in_turn(uses: Sequence[tuple[_Use, Access]], context: Context) -> bo
     """
     Whether one doer alone puts the flag down that others put up, and only where it found it up.
 
-    ``if self.asked: …; self.asked = False``: while that doer is at it nobody finds it down, so
-    nobody puts it up.
+    ``if self.asked: …; self.asked = False``: while that doer is at it no other finds it down, so
+    none puts it up.
     """
     if not all(write.lowers and write.found == FOUND_TRUE for _, write in uses):
         return False

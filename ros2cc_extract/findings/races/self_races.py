@@ -41,7 +41,7 @@ class SelfRace:
 
     :param use: where it shows; ``callback`` does it.
     :param waits: the callback waits between what it read or wrote first and ``use``.
-    :param is_whole: CPython lets nobody in between, as long as it has its global lock.
+    :param is_whole: CPython lets no thread in between, as long as it has its global lock.
     """
 
     kind: SelfRaceKind

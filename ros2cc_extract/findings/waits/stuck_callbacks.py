@@ -111,7 +111,7 @@ def _block(doer: Doer, standstill: Standstill, context: Context) -> Blocking | N
 
 
 def why_stuck(stuck: Stuck, others: Sequence[Stuck], context: Context) -> str:
-    """Say why nobody ends a wait: the first cause that holds for all that could."""
+    """Say why nothing ends a wait: the first cause that holds for all that could."""
     enders = [context.doer_by_name[name] for name in stuck.enders if name in context.doer_by_name]
     if not enders:
         return _why_nobody(stuck, context)

@@ -1,5 +1,5 @@
 """
-Runs to step through: data that the script draws when somebody asks for it.
+Runs to step through: data that the script draws on demand.
 
 A run that several parts show is stored once, and so is each of the few sentences, names and places
 of which runs are made.

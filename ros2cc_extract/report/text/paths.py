@@ -17,7 +17,7 @@ class Paths:
     Folders that shown paths are relative to.
 
     :param here: the current folder.
-    :param root: of the repository; empty when nobody knows it.
+    :param root: of the repository; empty if unknown.
     """
 
     here: Path

@@ -58,7 +58,7 @@ class Behaviour:
         return False if self._is_over(release) else _has_come(release, self.since)
 
     def _is_over(self, release: Release) -> bool:
-        """A line of which no end is known goes on."""
+        """A line without a known end goes on."""
         if not self.until:
             return False
         end = self.until.get(release[0])

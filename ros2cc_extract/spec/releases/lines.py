@@ -82,7 +82,7 @@ def newest_of(version: str) -> str:
 
 def judged_as(version: str) -> str | None:
     """
-    What a release is judged as that nobody has looked at, for the reader.
+    What an unexamined release is judged as, for the reader.
 
     :return: ``None`` for one that was, or that is no release.
     """

@@ -38,7 +38,7 @@ class Launched:
         code, ``RECORDED`` of a recording, ``RUNNING`` of the graph.
     :param package: ``None`` for what is started by its file.
     :param name: that the launch gives to every node of the process; ``None`` where the code does.
-    :param namespace: likewise.
+    :param namespace: the same for the namespace.
     :param command: of ``ExecuteProcess``, its words.
     :param conditional: why it may not be started.
     :param later: what begins it, where that is not the start of the launch.

@@ -46,7 +46,7 @@ class SystemAwaited:
     A service or action that a process waits for in its set-up, without an end.
 
     :param what: ``service`` or ``action``.
-    :param answers: it waits for an answer, not only until somebody offers it.
+    :param answers: it waits for an answer, not only until a node offers it.
     """
 
     what: str

@@ -89,7 +89,7 @@ def _offers(system: System) -> dict[_Name, list[End]]:
 def _stuck(
     waits: Mapping[Key, StartWait], offers: Mapping[_Name, list[End]]
 ) -> dict[Key, StartWait]:
-    """What is left when every wait that may end has ended; what nobody offers, somebody may."""
+    """What is left when every wait that may end has ended; an unknown node may offer the rest."""
     left = dict(waits)
     while True:
         over = [key for key, wait in left.items() if not _needs(wait, left, offers)]

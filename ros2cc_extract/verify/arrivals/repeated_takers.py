@@ -75,7 +75,7 @@ def _given(wait: NamedWait, spec: Spec, results: Mapping[Key, QueryResult]) -> i
 
 
 def _gives_again(giver: Actor, results: Mapping[Key, QueryResult]) -> bool:
-    """Whether it runs as often as somebody needs it, and always comes to its end."""
+    """Whether it runs as often as it is needed, and always comes to its end."""
     if any(block.call in (ENDLESS_LOOP, WORKING_LOOP) for block in giver.blocking):
         return True  # it may give in each round
     result = results.get((Family.PROGRESS, (giver.name,), ()))

@@ -21,7 +21,7 @@ class Sentence:
     What one process does in a step.
 
     :param lane: name of the process that has the edge: a thread, the executor, a group …
-    :param event: what it is; ``None`` in a model of somebody else.
+    :param event: what it is; ``None`` in a foreign model.
     """
 
     lane: str
@@ -54,7 +54,7 @@ class Moment:
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """What happens in it; nothing in a model of somebody else."""
+        """What happens in it; nothing in a foreign model."""
         return tuple(s.event for s in self.sentences if s.event is not None)
 
 

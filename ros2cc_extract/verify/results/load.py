@@ -1,7 +1,7 @@
 """
 How busy those are that a callback has to wait for: starvation judged by periods and durations.
 
-The models know no times: they say whether somebody *may* be kept from running forever. Here the
+The models know no times: they say whether a callback *may* be kept from running forever. Here the
 rates decide. Source of the rules: measured on rclpy 7.1.6 and 9.1.2 (docs/profile-rclpy.md,
 *Times*): on several threads an exclusive group starts over from its first member after each
 end, so a member gets what those served before it leave; one thread serves all in turns.
@@ -162,7 +162,7 @@ def served_before(callback: Callback, spec: Spec) -> tuple[Callback, ...]:
 
 
 def _counted(spec: Spec) -> list[Callback]:
-    """Without rclpy's own entities: nobody asks them often, unless a run has measured it."""
+    """Without rclpy's own entities: they are seldom asked, unless a run has measured it."""
     return [c for c in spec.callbacks if not c.builtin or c.measured is not None]
 
 
@@ -224,7 +224,7 @@ def _wanted(own: Demand, before: float) -> float:
 
 
 def _fair_share(wanted: float, others: Sequence[Demand]) -> float:
-    """What it would get of the group if nobody came before anybody; at most what it wants."""
+    """What it would get of the group if all had equal priority; at most what it wants."""
     rest, sharers = 1.0, len(others) + 1
     for load in sorted(other.load for other in others):
         if load >= rest / sharers:

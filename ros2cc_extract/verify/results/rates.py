@@ -1,5 +1,5 @@
 """
-How often and how long a callback wants to run, as far as anybody has said or measured.
+How often and how long a callback wants to run, as far as it was stated or measured.
 
 Stated by hand, measured in a live run, or read from the source: the first that is there.
 """

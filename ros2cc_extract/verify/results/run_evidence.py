@@ -3,7 +3,7 @@ Describe a path of the model as events: which callback, which thread, which grou
 
 Which event an edge is stands in the templates, as the comment of the edge; here its expressions
 are evaluated, and names are put for numbers. So this module knows no template, and a model of
-somebody else is described by its comments or its locations.
+others is described by its comments or its locations.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def describe(run: Run, names: Names) -> Evidence:
     Turn a replayed run into moments.
 
     Where comments are annotations, as ours are, steps without one are passed over in ``moments``;
-    of a model of somebody else every step is described, by its comment or else by its locations.
+    of a foreign model every step is described, by its comment or else by its locations.
     """
     edges = (edge for step in run.steps for edge in step.edges)
     is_ours = any(map(_annotation_of, edges))

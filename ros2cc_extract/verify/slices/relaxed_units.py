@@ -60,7 +60,7 @@ def loosened(closed: ClosedSpec) -> Iterator[Loosened]:
     """
     Give the unit without waits, then with those alone in which a client of it is asked.
 
-    First somebody outside answers, whenever it may be; then the services of the unit.
+    First a node outside answers, whenever it may be; then the services of the unit.
     """
     if not any(callback.blocking or callback.locks for callback in closed.spec.callbacks):
         return
@@ -87,7 +87,7 @@ def is_loose(query: Query, closed: ClosedSpec, max_cycle: int) -> bool:
 
 
 def _is_asked_again(name: str, closed: ClosedSpec) -> bool:
-    """Whether questions may let it run more often than it does where nobody asks."""
+    """Whether questions may let it run more often than it does if nothing asks."""
     asked, spec = 0, closed.spec
     by_name = {callback.name: callback for callback in spec.callbacks}
     for actor in actors_of(spec):
@@ -121,7 +121,7 @@ def _answered_outside(closed: ClosedSpec) -> ClosedSpec:
 
 
 def _questions(callback: Callback, spec: Spec) -> Iterator[Blocking]:
-    """Give what it asks, in the order of its steps: a client that nobody asks runs unasked."""
+    """Give what it asks, in the order of its steps: a client that nothing asks runs unasked."""
     for step in waits_of(callback, spec):
         if _asks(step, spec):
             block = step.block or Blocking(call='')

@@ -164,7 +164,7 @@ class Slicing:
         )
 
     def _evidence(self, question: _Question) -> Evidence:
-        """Find the run of a slice of which another one of its shape was asked."""
+        """Find the run of a slice if another one of its shape was asked."""
         key = key_of(question.query)
         found = self.search(self._part(question.names), [key], Limits())
         evidence = found.results[key].evidence

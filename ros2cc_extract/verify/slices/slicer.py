@@ -89,7 +89,7 @@ class Slicer:
         """
         Add all that wait: nothing else keeps a thread, a group or the executor forever.
 
-        Not where a callback that waits for nobody may end a wait: any that runs ends a
+        Not where a callback that waits for nothing may end a wait: any that runs ends a
         ``spin_once``, and wakes a coroutine whose future a thread of the user has made done.
         """
         waits = [wait for waits in self._of.waits.values() for wait in waits]
@@ -279,7 +279,7 @@ class Slicer:
         return self._cone((name,), Rests.ON_END) & self.waiting <= {name}
 
     def held_steps(self, name: str) -> Iterator[int]:
-        """Number the steps in which it holds a thread until somebody else has run."""
+        """Number the steps in which it holds a thread until another callback has run."""
         for number, step in enumerate(self._of.steps[name]):
             if step.kind is WaitKind.HELD:
                 yield number
@@ -297,7 +297,7 @@ class Slicer:
         )
 
     def gets_data(self, name: str) -> bool:
-        """Whether something may arrive for it that nobody of the unit has asked for."""
+        """Whether something may arrive for it that nothing in the unit has asked for."""
         return not self._of.callers[name]
 
     def cut(self, names: Names) -> ClosedSpec:
@@ -341,7 +341,7 @@ class Slicer:
         """
         Of callbacks that neither wait nor take locks, in any part of such callbacks.
 
-        They signal nobody there.
+        They signal nothing there.
         """
         spec = self._spec
         return {

@@ -164,7 +164,7 @@ class Project:
         return None
 
     def followed(self) -> list[FollowedFile]:
-        """The files that nobody gave, as they were read."""
+        """The files that were not given, as they were read."""
         given = {id(source) for source in self.given}
         return [
             (str(source.path), source.digest)
@@ -247,7 +247,7 @@ def _package_of(files: Files, folder: Path) -> str:
 
 
 def python_files(files: Files, folder: Path, on_error: OnError) -> Iterator[Path]:
-    """The Python files that are scanned when somebody names ``folder``."""
+    """The Python files that are scanned if ``folder`` is given."""
     for base, folders, names in files.walk(folder, on_error):
         folders[:] = sorted(f for f in folders if f not in _SKIPPED and not f.startswith('.'))
         for name in names:

@@ -82,7 +82,7 @@ def walk(node: ast.AST) -> Iterator[ast.AST]:
     """
     Every node below ``node``, in no particular order; some four times as fast as ``ast.walk``.
 
-    Contexts and operators are left out: nobody asks for them.
+    Contexts and operators are left out: they are never asked for.
     """
     waiting = [node]
     fields = _FIELDS

@@ -62,7 +62,7 @@ class _TooEarly:
     lacking: tuple[tuple[Heaped, str | None], ...]
 
     def may_go_on(self) -> bool:
-        """True when it met ``None``, or lacked what somebody has set or put in since."""
+        """True when it met ``None``, or lacked what was set or put in since."""
         return self.met_none or any(_is_there(owner, name) for owner, name in self.lacking)
 
 

@@ -1,4 +1,4 @@
-"""Runs of the abstract machine: from an entry, over the callbacks, to what nobody calls."""
+"""Runs of the abstract machine: from an entry, over the callbacks, to what is never called."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs of what no entry reaches: node classes nobody makes, and functions given a node."""
+"""Runs of what no entry reaches: node classes without instances, and functions given a node."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ def _use_without_caller(machine: RosInterpreter, value: Class | Function) -> Non
 
 
 def _mark_later(world: RosWorld, nodes: int, entities: int, place: Place) -> None:
-    """What a function adds to a node that was there before is made when somebody calls it."""
+    """What a function adds to a node that was there before is made when it is called."""
     known = {id(node) for node in world.nodes[:nodes]}
     for entity in world.entities[entities:]:
         if id(entity.node) in known and entity.when is When.START:

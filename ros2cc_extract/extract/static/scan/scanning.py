@@ -88,7 +88,7 @@ class Found:
 
 @dataclass(frozen=True)
 class Read:
-    """What one process has read: trouble with files, and files nobody gave."""
+    """What one process has read: trouble with files, and files that were not given."""
 
     unread: tuple[Diagnostic, ...]
     followed: frozenset[FollowedFile]
@@ -106,7 +106,7 @@ def scan_project(
     project: Project, processes: int, progress: Progress | None, patience: Patience
 ) -> tuple[Extraction, frozenset[FollowedFile]]:
     """
-    Follow everything; also gives the files that were read though nobody gave them.
+    Follow everything; also returns files that were read but not given.
 
     :param processes: at most so many share the work.
     """
@@ -340,7 +340,7 @@ class _Covered:
     """
     What was followed already, by file.
 
-    :ivar grown: files of which more was covered since.
+    :ivar grown: files that have more covered since.
     """
 
     def __init__(self, found: Iterable[Found]) -> None:

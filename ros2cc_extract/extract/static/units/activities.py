@@ -84,7 +84,7 @@ def facts_of(state: ActivityState) -> FunctionFacts:
 
 def own_spins(state: ActivityState, world: RosWorld, nodes: Sequence[Instance]) -> tuple[Act, ...]:
     """
-    Where ``main`` runs the callbacks of ``nodes``, if nobody else does.
+    Where ``main`` runs the callbacks of ``nodes``, if nothing else does.
 
     Then it stands still while they run, and they do while it goes on: by its one thread, or in
     a spin forever; its pool runs nothing before.

@@ -162,7 +162,7 @@ class UnitBuilder:
         )
 
     def _each_once(self, entities: Sequence[EntityState]) -> list[EntityState]:
-        """What objects in the same position make on a node nobody knows is one entity."""
+        """What objects in the same position make on an unknown node is one entity."""
         kept: dict[object, EntityState] = {}
         for entity in entities:
             key = same_on_a_ghost(entity)
@@ -206,7 +206,7 @@ class UnitBuilder:
         return Wanted(facts.label, self._key_text(entity), node)
 
     def _groups(self, entities: Sequence[EntityState], labels: list[str]) -> list[CallbackGroup]:
-        """The groups in use, in order of first use by creation; then those that nobody uses."""
+        """The groups in use, in order of first use by creation; then unused ones."""
         unwritten = {id(entity) for entity in self._world.builtins}
         pairs = sorted(
             zip(entities, labels, strict=True),

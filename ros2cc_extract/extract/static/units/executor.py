@@ -25,7 +25,7 @@ class Unit:
     An executor and the nodes it serves in the end.
 
     :param spin: the call that spins it, ``None`` if no such call is known.
-    :param mark: distinguishes units of which a program only ever runs one.
+    :param mark: distinguishes units if a program only ever runs one of them.
     :param is_only: the program has no other.
     :param set_up: waits of the code that sets it up or ends it.
     """

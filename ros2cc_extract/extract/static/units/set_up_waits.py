@@ -93,7 +93,7 @@ class _SetUpWaits:
     doers: Mapping[str, object]
 
     def decided(self, block: Blocking, wait: SetUpWait) -> Blocking:
-        """The wait with the reason why nobody knows whether it ends, where that is so."""
+        """The wait with the reason why it is unknown whether it ends, if so."""
         is_open = block.seconds is None and block.escapes is None
         is_open = is_open and not block.initial  # of a semaphore: it is free
         if not is_open or any(waker.by in (OUTSIDE, TIME) for waker in block.wakers):

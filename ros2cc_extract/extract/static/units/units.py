@@ -131,7 +131,7 @@ def _with_unresolved(spec: Spec) -> Spec:
 
 
 def units_of(world: RosWorld) -> list[Unit]:
-    """One unit for each executor that is spun; then nodes that nobody spins."""
+    """One unit for each executor that is spun; then nodes that are not spun."""
     units = [unit for unit in _spun_units(world) if unit.nodes]
     served = {id(node) for unit in units for node in unit.nodes}
     for executor in world.executors:

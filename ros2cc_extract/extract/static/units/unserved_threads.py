@@ -1,5 +1,5 @@
 """
-Threads that the set-up waits for, and that themselves wait for callbacks which nobody serves yet.
+Threads that the set-up waits for, and that themselves wait for callbacks that are not served yet.
 
 The executor is spun behind the set-up: a thread that a constructor starts and joins gets no
 answer of a client meanwhile.

@@ -1,4 +1,4 @@
-"""Callback groups that a node makes and keeps, and that nobody ever asks it for."""
+"""Callback groups that a node makes and keeps, and that no code ever asks it for."""
 
 from __future__ import annotations
 

@@ -130,9 +130,9 @@ class UnitWaits(DataWriters):
 
     def _is_none(self, raw: Blocking, doer: Doer) -> bool:
         """
-        Whether it never waits: it was asked before, and nobody else changes the answer.
+        Whether it never waits: it was asked before, and no other code changes the answer.
 
-        Nor does what nobody ever puts in: it is never found there.
+        Nor for what is never put in: it is never found there.
         """
         reference = raw.resource
         if not isinstance(reference, ResourceRef) or not reference.asked:
@@ -264,7 +264,7 @@ class UnitWaits(DataWriters):
         return replace(named, wakers=tuple(dict.fromkeys(wakers)), escapes=escapes)
 
     def _of_data(self, raw: Blocking, on: DataRef, named: Blocking, doer: Doer) -> Blocking:
-        """A loop that waits until somebody has written what it reads."""
+        """A loop that waits until other code has written what it reads."""
         writers = tuple(dict.fromkeys((*self._writers(on), *self._by_main(raw, on, doer))))
         signals = self._signals(on, doer)
         if signals is None:
@@ -470,7 +470,7 @@ def _ends_by_itself(wakers: Iterable[Waker]) -> bool:
 
 
 def _unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:
-    """The same wakers, of which nobody knows whether they come."""
+    """The same wakers, marked as perhaps not coming."""
     return tuple(replace(waker, conditional=True) for waker in wakers)
 
 

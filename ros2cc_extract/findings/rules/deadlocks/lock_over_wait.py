@@ -1,4 +1,4 @@
-"""CC115: a lock is held over a wait that only ends when somebody else has got that lock."""
+"""CC115: a lock is held over a wait that only ends when another doer has got that lock."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def _hit(wait: Wait, lock: str, stuck: dict[str, Act], context: Context) -> Hit:
     others = [context.by_name[name] for name in stuck]
     again = others == [caller]
     who = 'another run of it' if again else shown(others)
-    # With one run at a time nobody is stuck: whether so many come together the rates decide.
+    # With one run at a time none is stuck: the rates decide whether so many come together.
     rests_on_rates = any(is_of_repeated(other, context) for other in others)
     how_many = 'all' if rests_on_rates else 'both'
     one_thread = is_one_thread(context.unit.executor)

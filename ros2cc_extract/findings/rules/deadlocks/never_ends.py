@@ -1,4 +1,4 @@
-"""CC109: the model knows a run in which somebody waits forever, and no other rule says why."""
+"""CC109: the model has a run in which a callback waits forever, and no other rule says why."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def hits_of(
 
 
 def _for_writers(context: Context) -> Iterator[AnyWait]:
-    """Waits for the end of children that wait for somebody to read what they write."""
+    """Waits for the end of children that wait for a reader of their output."""
     for doer in context.doers:
         blocks = (block for block in doer.blocking if block.unread is not None)
         yield from (AnyWait(doer, block, kind_of(block)) for block in blocks)
@@ -231,7 +231,7 @@ def _help_where_repeated(repeated: Sequence[Doer]) -> str:
 
 
 def _keeps_the_program(stuck: Stuck) -> bool:
-    """What nobody else touches may be meant to keep ``main`` from its end."""
+    """What no other code touches may be meant to keep ``main`` from its end."""
     is_main = isinstance(stuck.doer, Activity) and stuck.doer.kind is ActivityKind.MAIN
     return is_main and not stuck.enders and stuck.wait.block.call == 'Event.wait'
 

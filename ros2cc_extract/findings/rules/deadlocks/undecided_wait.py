@@ -163,9 +163,9 @@ def _named(wait: AnyWait) -> str:
 
 def _for_messages(context: Context) -> Iterator[AnyWait]:
     """
-    Waits for messages from another process: answers, and what nobody here can send meanwhile.
+    Waits for messages from another process: answers, and what nothing here can send meanwhile.
 
-    Nobody says when a message is lost, or nobody listens. Where the model refutes the wait
+    No error shows a lost message, or a missing listener. If the model refutes the wait
     anyhow, that is reported.
     """
     for caller in context.doers:
@@ -212,7 +212,7 @@ def _is_for_spinning(wait: AnyWait, context: Context) -> bool:
     A thread that waits for the end of one that spins lives as long as the program.
 
     So does one that goes round until a signal comes, or until the program ends; and the main
-    program, where no other thread needs it, waits until somebody wants it to go on or to end.
+    program, where no other thread needs it, waits until other code wants it to go on or to end.
     """
     caller = wait.caller
     is_main = isinstance(caller, Callback) and caller.is_main
@@ -227,7 +227,7 @@ def _is_for_spinning(wait: AnyWait, context: Context) -> bool:
 
 def _holds_nobody_up(wait: AnyWait, context: Context) -> bool:
     """
-    Whether a thread waits in code that is not followed, and nobody needs it to go on.
+    Whether a thread waits in code that is not followed, and nothing needs it to go on.
 
     A server on a loop of its own does nothing else.
     """
@@ -239,7 +239,7 @@ def _only_listens(wait: AnyWait, context: Context) -> bool:
     """
     Whether a daemon thread waits for the next word from outside, or for a child, and no more.
 
-    That is its work: nobody needs it to go on, and the program ends without it.
+    That is its work: nothing needs it to go on, and the program ends without it.
     """
     thread = wait.caller
     if not isinstance(thread, Activity) or not thread.daemon or not _ends_outside(wait.block):
@@ -287,7 +287,7 @@ def _unwoken(context: Context) -> Iterator[AnyWait]:
     """
     Awaits that a thread ends, and that last forever in the model, which knows no other wake-up.
 
-    Whether somebody calls ``wake``, or else something comes, the specification does not say.
+    The specification does not say whether code calls ``wake``, or something else comes.
     """
     for caller in context.written:
         run = refuting_run(PROGRESS, context, caller)
@@ -303,7 +303,7 @@ def _is_by_thread(block: Blocking) -> bool:
 
 
 def _not_proven(context: Context) -> Iterator[AnyWait]:
-    """Waits that last forever in the model of a unit of which not all facts are known."""
+    """Waits that last forever in the model of a unit with unknown facts."""
     if open_facts(context):
         yield from (stuck.wait for together, _ in unexplained(context) for stuck in together)
 

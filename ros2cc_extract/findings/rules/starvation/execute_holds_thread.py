@@ -1,4 +1,4 @@
-"""CC203: cancel requests that nobody takes while a goal is executed."""
+"""CC203: cancel requests that are not taken while a goal is executed."""
 
 from __future__ import annotations
 

@@ -101,7 +101,7 @@ def _is_sleep(wait: AnyWait) -> bool:
 
 def _is_long_wait(wait: Wait, context: Context) -> bool:
     """
-    Whether it may last so long that a timer misses runs, though somebody else may end it.
+    Whether it may last so long that a timer misses runs, though other code may end it.
 
     What nothing can end meanwhile is reported by other rules.
     """
@@ -199,7 +199,7 @@ def _help(executor: Executor) -> str:
 
 
 def _is_rare(wait: Wait, others: Sequence[Callback]) -> bool:
-    """Whether it mostly ends sooner, or nobody waits but the services that rclpy has made."""
+    """Whether it mostly ends sooner, or only the services that rclpy has made wait."""
     return not _is_sleep(wait) and (not others or bool(wait.needs))
 
 

@@ -1,4 +1,4 @@
-"""CC708: a life-cycle node that nobody configures."""
+"""CC708: a life-cycle node that nothing configures."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""CC701: what nobody in the system offers, or wants, though nearly the same name is there."""
+"""CC701: what no node in the system offers, or wants, though nearly the same name is there."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""CC704: simulated time that nobody provides."""
+"""CC704: simulated time that no node provides."""
 
 from __future__ import annotations
 

@@ -85,7 +85,7 @@ def _keys(parts: Sequence[Spec]) -> frozenset[str]:
 
 
 def _named(callbacks: Iterable[Callback], kind: EntityKind) -> set[str]:
-    """Those of which there is one."""
+    """Those that exist once."""
     found = [c.key for c in callbacks if c.entity is kind and isinstance(c.key, str)]
     return {key for key in found if found.count(key) == 1}
 

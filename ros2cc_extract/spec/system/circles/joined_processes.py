@@ -82,7 +82,7 @@ def circles_in(system: System) -> Iterator[list[Process]]:
     """
     Sets of several processes, each of which needs each other one.
 
-    A message is needed of a circle only where nobody beside it sends on the topic.
+    A message is needed of a circle only if no other process sends on the topic.
     """
     offered = {
         (each.what, each.name): {

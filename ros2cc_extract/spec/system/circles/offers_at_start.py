@@ -27,7 +27,7 @@ _Offers = Mapping[tuple[EndpointKind, str], str]
 
 
 def with_offers(system: System) -> System:
-    """The system with each wait until somebody is there as one that ends, where somebody is."""
+    """The system with each wait for a server as one that ends, if there is a server."""
     offers = dict(_offers(system))
     return replace(system, processes=tuple(_process(each, offers) for each in system.processes))
 

@@ -1,4 +1,4 @@
-"""What a machine that models rclpy notes, and knows of objects of which only their use is seen."""
+"""What a machine that models rclpy notes, and knows of objects whose use alone is seen."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class RosNotes(StandardBlocks, RosMachine):
     def other_member(
         self, cls: Library, receiver: Value | None, name: str, place: Place
     ) -> Value | None:
-        """``node.executor``, of a class of which nobody has said more than its name."""
+        """``node.executor``, of a class that is known only by name."""
         if not isinstance(receiver, Instance) or not isinstance(receiver.state, NodeState):
             return None
         if not cls.name.startswith('rclpy.') or name != 'executor':
@@ -224,7 +224,7 @@ class RosNotes(StandardBlocks, RosMachine):
         return clock is not None
 
     def note_clock(self, name: str, clock: EntityState, place: Place) -> None:
-        """Somebody waits for time that ``clock`` moves."""
+        """Note a wait for time that ``clock`` moves."""
         if self.world.effects is not None:
             reference = ClockRef('/clock')
             reference.number = id(clock)

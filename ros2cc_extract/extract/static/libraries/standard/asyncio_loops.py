@@ -219,7 +219,7 @@ def _touching(how: str, word: Word) -> Handler:
 
 
 def _awaitable(name: str, word: Word | None = None) -> Handler:
-    """A coroutine that waits for ``receiver`` once somebody awaits it, and then does ``word``."""
+    """A coroutine that waits for ``receiver`` once it is awaited, and then does ``word``."""
 
     def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         def awaited(machine: ConcurrentMachine, _: Value, inner: Call) -> Value:

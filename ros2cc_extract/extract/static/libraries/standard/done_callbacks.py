@@ -86,7 +86,7 @@ def init_future(machine: ConcurrentMachine, receiver: Value, call: Call) -> Valu
 
 
 def begin_anew(machine: ConcurrentMachine, receiver: Instance) -> None:
-    """A callback that is followed again makes its future again, and nobody has completed that."""
+    """A callback that is followed again makes its future again, which is not completed."""
     machine.store.write(receiver, _IS_DONE, _PENDING)
 
 

@@ -129,7 +129,7 @@ def _keep(machine: ConcurrentMachine, pool: Value, future: Value) -> None:
 
 
 def _map(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Its results wait for all calls, when somebody goes over them."""
+    """Its results wait for all calls, when code goes over them."""
     results = machine.future(call.place, OF_POOL)
     results.hint = 'map'
     if call.args:

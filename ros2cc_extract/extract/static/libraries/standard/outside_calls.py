@@ -113,7 +113,7 @@ def _is_killed(machine: ConcurrentMachine, name: str, place: Place) -> bool:
 
 def _is_there(machine: ConcurrentMachine, name: str) -> bool:
     """
-    Whether something is read of which the program has asked whether it is there.
+    Whether something is read after the program has asked whether it is there.
 
     ``select`` shows before a read that it will not wait, and ``in_waiting`` what a port has;
     a regular file, as ``S_ISREG`` knows one, and a descriptor that ``os.set_blocking`` or
@@ -200,7 +200,7 @@ def _blocks(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _kind_of_socket(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Nobody answers the ``connect`` of a datagram socket (``socket`` documentation)."""
+    """Nothing answers the ``connect`` of a datagram socket (``socket`` documentation)."""
     kind = call.argument(1, 'type')
     if isinstance(receiver, Instance) and isinstance(kind, Name) and kind.name == _DATAGRAM:
         machine.store.write(receiver, _DATAGRAM, kind)

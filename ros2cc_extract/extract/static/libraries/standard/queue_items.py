@@ -1,7 +1,7 @@
 """
 What is put into the queues of a program, for the code that takes it out.
 
-Which item somebody gets is not known: it is one of all that are put in. Until all is followed
+Which item a consumer gets is not known: it is one of all that are put in. Until all is followed
 each item is taken to be given away; at the end that is taken back of those that everybody in
 sight who takes items has met.
 """
@@ -41,7 +41,7 @@ class Contents:
     """
     Of one queue.
 
-    :param taken: how many items had been put in when somebody took one last, by the place.
+    :param taken: how many items had been put in when one was taken last, by the place.
     """
 
     queue: Instance

@@ -286,7 +286,7 @@ def _keep_flag(machine: ConcurrentMachine, event: Instance, flag: Const) -> None
 
 
 def _is_set(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Known in the set-up alone, before anything else runs, and where nobody ever sets it."""
+    """Known in the set-up alone, before anything else runs, and if it is never set."""
     assert isinstance(receiver, Instance)
     world, flag = machine.world, receiver.slots.get(_IS_SET)
     if is_never_set(world, receiver):

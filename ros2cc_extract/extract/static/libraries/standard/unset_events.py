@@ -1,4 +1,4 @@
-"""Events that nobody sets: their ``is_set`` gives ``False`` forever."""
+"""Events that are never set: their ``is_set`` gives ``False`` forever."""
 
 from __future__ import annotations
 

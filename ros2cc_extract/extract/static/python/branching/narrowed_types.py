@@ -57,7 +57,7 @@ def narrowed(machine: Machine, node: ast.expr, value: Value, frame: Frame) -> Va
 
 
 def forget(machine: Machine, target: ast.expr, frame: Frame) -> None:
-    """Something is stored there, of which nothing has been asked yet."""
+    """Something is stored there that no test has asked about yet."""
     text = _text(target)
     if text in frame.narrowed:
         mine = (frame.scope, text)
@@ -86,7 +86,7 @@ def _text(node: ast.expr) -> str:
 
 
 def _is_kept(machine: Machine, node: ast.expr, frame: Frame) -> bool:
-    """Whether nobody else may store something there between the test and what follows."""
+    """Whether no other code may store something there between the test and what follows."""
     if isinstance(node, ast.Name):
         return node.id in frame.scope.slots
     owner = machine.evaluate(node.value, frame) if isinstance(node, ast.Attribute) else None

@@ -281,7 +281,7 @@ def _may_be_filled(machine: Machine, held: Value | None) -> bool:
 
 
 def holds_objects(collection: Collection) -> bool:
-    """Whether there are objects in it, of which a callback may take one."""
+    """Whether it has objects that a callback may take."""
     items = (
         *collection.slots.get('items', ()),
         *collection.slots.get('entries', {}).values(),

@@ -107,7 +107,7 @@ def _arm(
 
 
 def run_match(machine: Machine, node: ast.Match, frame: Frame) -> int:
-    """Run a ``match``, each case of which may hold."""
+    """Run a ``match``; each case may hold."""
     machine.evaluate(node.subject, frame)
     bodies: list[Callable[[], int]] = [
         lambda case=case: _case(machine, case, frame)  # type: ignore[misc]

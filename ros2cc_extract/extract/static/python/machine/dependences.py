@@ -43,12 +43,12 @@ class Reading:
     """
     Notes on the reads of shared data.
 
-    :param read: names that were read since somebody has last asked.
+    :param read: names that were read since the last question.
     :param flowing: names on which the value rests that is being stored.
     :param tests: names that a branch or an early return rests on, by the place of the test.
     :param items: the item that is meant, by the place of the container and its attribute.
     :param choices: the shared data because of which it is that item, in the same way.
-    :param used: objects of which more is asked than whether they are there, in the same way.
+    :param used: objects that are asked for more than being there, in the same way.
     :param compared: what is only asked for whether it is still what the function knows.
     :param stored: the value that is being stored.
     :param is_whole: what is stored now is read and stored in one piece, see ``atomic_updates.py``.
@@ -137,7 +137,7 @@ class Reading:
         return self.calls > max((self.tested_at.get(place, 0) for place in tests), default=0)
 
     def is_in_one_piece(self, name: str, path: Path) -> bool:
-        """Whether nobody writes ``name`` since it was read for what is stored now."""
+        """Whether no code writes ``name`` since it was read for what is stored now."""
         if not self.is_whole or (self.flowing and name not in self.flowing):
             return False
         return not self.governs(name, path) or not self.has_called_since(name, path)

@@ -33,7 +33,7 @@ class LibraryClass:
 
     :param state: makes what an instance has beyond its attributes.
     :param init: what ``__init__`` does; the receiver is the instance.
-    :param is_beside: an object may be this besides what another base class makes of it.
+    :param is_beside: an object may be this in addition to what another base class makes of it.
     :param again: what holds for an instance that is made again, by what made it before.
     """
 

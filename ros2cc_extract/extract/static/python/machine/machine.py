@@ -177,7 +177,7 @@ class Machine(Observer, LibraryHooks, ABC):
 
     @abstractmethod
     def run_if_coroutine(self, value: Value, place: Place) -> Value:
-        """Run ``value`` if it is a coroutine, which somebody awaits elsewhere."""
+        """Run ``value`` if it is a coroutine, which is awaited elsewhere."""
 
     @abstractmethod
     def zero_argument_super(self, frame: Frame) -> Value:

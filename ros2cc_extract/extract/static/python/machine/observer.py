@@ -47,7 +47,7 @@ class Observer:
         """An attribute or item of an object is stored, or a collection in it changes in place."""
 
     def note_iteration(self, node: ast.expr, frame: Frame) -> None:
-        """A loop goes over a collection, which nobody may change in size meanwhile."""
+        """A loop goes over a collection, which may not change in size meanwhile."""
 
     def note_discarded(self, value: Value, place: Place) -> None:
         """A statement does nothing with the value of the call that it consists of."""
@@ -112,7 +112,7 @@ class Observer:
         """A loop was followed that nothing in its body leaves."""
 
     def note_results(self, value: Value, place: Place) -> None:
-        """Somebody goes over ``value``, which cannot be followed."""
+        """A loop goes over ``value``, which cannot be followed."""
 
     def note_await(self, value: Value, place: Place) -> None:
         """``value`` is awaited."""
@@ -163,7 +163,7 @@ class LibraryHooks:
         return assumption(fact, value)
 
     def objects_made(self) -> int:
-        """How many objects of libraries there are of which it matters which one is meant."""
+        """The number of library objects whose identity matters."""
         return 0
 
     def doubt_objects(self, since: int, reason: str, place: Place) -> None:

@@ -45,7 +45,7 @@ class EffectLog:
     :param woken: of what others may wait on, by its identity, how many waits came before its wait
         was ended first.
     :param pieces: what is changed piece by piece, or published as a whole.
-    :param looped: the waits that stand in a loop of which nobody knows how often it goes round.
+    :param looped: the waits in a loop with an unknown number of rounds.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     :param resting: loops that await something in each round.
     :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
@@ -104,7 +104,7 @@ class Doer:
 
     @property
     def is_answered(self) -> bool:
-        """Whether it takes answers that somebody else must give."""
+        """Whether it takes answers that other code must give."""
         return False
 
     is_set_up: bool = False

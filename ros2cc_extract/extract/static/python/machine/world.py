@@ -79,13 +79,13 @@ class World:
     """
     One run.
 
-    :param settled_now: attributes that nobody else changes, so that they hold what is stored.
+    :param settled_now: attributes that no other code changes, so that they hold what is stored.
     :param current: the callback that is followed; ``activity`` the thread, or the part of the
         main program.
     :param path: the undecided branches we are in.
     :param count: how often what is made now is made (loops).
     :param is_program: it is run from an entry, so that nothing happens before its set-up.
-    :param open_loops: how many loops are followed of which nobody knows how often they go round.
+    :param open_loops: how many loops with an unknown number of rounds are followed.
     :param ready: what has surely happened to objects that others may wait for, see
         ``path_facts.py``.
     :param picked: what had happened to items for which they were put into a collection, by its
@@ -113,8 +113,8 @@ class World:
     :param trees: the text of every module that was run; ``files`` with the names of its file.
     :param changing: how often a callback has read what other functions may change.
     :param unset: how often one has read ``None`` where other functions put something.
-    :param lacking: attributes that callbacks asked for before anybody had set them, and (without
-        a name) collections before anybody had put an object in.
+    :param lacking: attributes that callbacks asked for before they were set, and (without
+        a name) collections before an object was put in.
     :param missing: open tests on whether something is there yet.
     :param again: the running callback is followed once more; what it makes, it has made then.
     :param stored: what each attribute was ever assigned, by the place of that.

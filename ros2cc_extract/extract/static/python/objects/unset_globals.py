@@ -40,7 +40,7 @@ def unset_global(
 
 
 def pass_on(machine: Machine, node: ast.Call, call: Call, frame: Frame) -> None:
-    """A library is given the thing itself; of what nobody uses as a thing ``None`` is passed."""
+    """A library is given the thing itself; ``None`` is passed for what no code uses as a thing."""
     if not machine.world.unset_globals:
         return
     for at, text in enumerate(node.args[: len(call.args)]):

@@ -67,7 +67,7 @@ class Mystery(Value):
     A value that could not be followed.
 
     :param text: how the source calls it; two mysteries of one text and place are one thing.
-    :param default: what it is when nobody passes anything else (a parameter's default).
+    :param default: what it is if nothing else is passed (a parameter's default).
     :ivar is_plain: it is a number or a text for certain, whichever.
     """
 
@@ -88,7 +88,7 @@ class Mystery(Value):
 
     @property
     def text(self) -> str:
-        """Short source of the expression, made when somebody asks."""
+        """Short source of the expression, made on demand."""
         if not isinstance(self._text, str):
             self._text = source_text(self._text)
         return self._text

@@ -71,7 +71,7 @@ def _others_come(visits: Visits, mine: Sequence[Waking]) -> bool:
 def why_rounds_differ(
     raw: Blocking, reference: ResourceRef, visits: Visits, mine: Sequence[Waking]
 ) -> Unknown | None:
-    """Why it is not certain that all come whenever somebody waits."""
+    """Why it is not certain that all come at each wait."""
     reason = _reason(reference, visits, mine)
     return None if reason is None else Unknown(reason, raw.source)
 
@@ -85,7 +85,7 @@ def _reason(reference: ResourceRef, visits: Visits, mine: Sequence[Waking]) -> s
     if parties is None:
         return 'how many must come is not known'
     if parties > len(visits):
-        return None  # nobody ever ends it
+        return None  # nothing ever ends it
     if parties < len(visits):
         return f'{parties} must come, and more do'
     if len({tuple(block.times for block in blocks) for blocks in visits.values()}) > 1:

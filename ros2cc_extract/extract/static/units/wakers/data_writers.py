@@ -127,7 +127,7 @@ class DataWriters:
         """
         What the program does when the spin has ended, which ends its threads from outside.
 
-        So does what it does beside them before; a thread that works meanwhile waits for nobody.
+        So does what it does beside them before; a thread that works meanwhile does not wait.
         """
         for name in sorted(on.names) if is_activity(doer) else ():
             by, place = self._world.other_writes.get(name, ('', None))

@@ -39,7 +39,7 @@ def is_plain_lock(
     raw: Blocking, doer: Doer, doers: Sequence[Doer], given: Sequence[Waking]
 ) -> bool:
     """
-    Whether a semaphore is taken as a lock of which nothing more is to be said.
+    Whether a semaphore is only taken as a lock.
 
     All code that takes it gives it back, waits for nothing meanwhile, and does not take it twice.
     """

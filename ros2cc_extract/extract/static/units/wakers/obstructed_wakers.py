@@ -28,7 +28,7 @@ _FOR_ONE = frozenset({Word.PUT, Word.GET, Word.RELEASE})
 def is_kept_out(
     waking: Waking, reference: ResourceRef, doer: Doer, doers: Sequence[Doer], wait: Blocking
 ) -> bool:
-    """Whether ``waking`` may not come while ``doer`` is in ``wait``, or be for somebody else."""
+    """Whether ``waking`` may not come while ``doer`` is in ``wait``, or be for another wait."""
     by = waking.by
     if by is doer:
         return False
@@ -40,7 +40,7 @@ def is_kept_out(
 
 
 def is_off_its_loop(by: object, doers: Sequence[Doer]) -> bool:
-    """Whether it is to run on a loop of asyncio that somebody else may block."""
+    """Whether it is to run on a loop of asyncio that other code may block."""
     return isinstance(by, ActivityState) and any(_holds_the_loop_of(by, each) for each in doers)
 
 

@@ -1,4 +1,4 @@
-"""What is done to an object that somebody waits for."""
+"""What is done to an object that code waits for."""
 
 from __future__ import annotations
 

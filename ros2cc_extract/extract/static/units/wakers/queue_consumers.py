@@ -1,8 +1,8 @@
 """
-Threads that empty a queue round by round, and wait for nobody else meanwhile.
+Threads that empty a queue round by round, and wait for nothing else meanwhile.
 
 Code that waits for room goes on when such a thread has taken the next item, however large the
-queue is and however often somebody puts: no number of runs uses it up. Code that joins it goes on
+queue is and however often items are put: no number of runs uses it up. Code that joins it goes on
 when such a thread has done the last one, and at once if it is empty.
 """
 
@@ -102,7 +102,7 @@ def _is_ended_by_callbacks(loop: Blocking, world: RosWorld, doers: Sequence[Doer
 
 
 def _may_be_locked_out(thread: ActivityState, doers: Sequence[Doer]) -> bool:
-    """Whether somebody holds, while it waits for others, a lock that the thread takes."""
+    """Whether a doer holds, while it waits for others, a lock that the thread takes."""
     mine = {act.name for act in thread.effects.locks}
     return any(
         not mine.isdisjoint(lock.removesuffix(RE_ENTRANT) for lock in block.held)

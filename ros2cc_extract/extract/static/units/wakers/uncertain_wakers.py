@@ -2,7 +2,7 @@
 Wakers that may be gone when code waits, or come before it does.
 
 A timer that is cancelled or never started, a callback whose entity or node is destroyed, and what
-runs once only, which a condition forgets when nobody waits yet. Sources: rclpy 7.1.6 and 9.1.2,
+runs once only, which a condition forgets if nothing waits yet. Sources: rclpy 7.1.6 and 9.1.2,
 ``node.py`` (``create_timer``), ``timer.py`` (``cancel``, ``reset``), ``executors.py``; CPython
 3.12, ``threading.py`` (``Condition.notify``). Where another waker is left, nothing is said.
 """
@@ -180,7 +180,7 @@ def why_lost(
     name: Names,
 ) -> Unknown | None:
     """
-    Why what ends a wait, which comes once only, may come before anybody waits.
+    Why what ends a wait, which comes once only, may come before the wait.
 
     What a condition forgets is the model's to say, see ``forgets``.
     """
@@ -258,7 +258,7 @@ def forgets(reference: ResourceRef, mine: Sequence[Waking], doer: Doer) -> bool:
 
 
 def is_unheard(waking: Waking, doer: Doer) -> bool:
-    """Whether a waker of a wait that ``forgets`` perhaps comes while nobody waits."""
+    """Whether a waker of a wait that ``forgets`` perhaps comes while nothing waits."""
     return not _is_modelled(waking, doer)
 
 

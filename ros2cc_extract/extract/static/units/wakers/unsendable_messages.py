@@ -21,7 +21,7 @@ from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import EntityKind
 
 Doer = EntityState | ActivityState
-# They are there only when somebody has made them in the same run.
+# They are there only if they were made in the same run.
 _OF_A_RUN = (EntityKind.TASK, EntityKind.DONE_CALLBACK)
 
 

@@ -1,5 +1,5 @@
 """
-Publishers that are destroyed while somebody else may publish by them.
+Publishers that are destroyed while other code may publish by them.
 
 Source: rclpy 7.1.6, ``publisher.py`` (``publish`` takes the handle, which raises ``InvalidHandle``
 when it was destroyed) and ``node.py`` (``destroy_publisher`` gives the handle back at once).

@@ -186,7 +186,7 @@ def _is_over(spin: Spin, end: End) -> bool:
 
 
 def _is_spun_beside(doer: ActivityState, spins: Sequence[Spin], world: RosWorld) -> bool:
-    """Whether anybody else spins meanwhile."""
+    """Whether other code spins meanwhile."""
     others = (spin.by for spin in spins if spin.by is not doer or doer.count != 1)
     return not all(go_in_turn(world, other, doer) for other in others)
 

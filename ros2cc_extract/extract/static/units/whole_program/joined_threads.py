@@ -92,7 +92,7 @@ def is_reported(block: Blocking, state: ActivityState, wait: OutsideWait, world:
     """
     Whether the thread was behind the wait ``block`` by then, for good.
 
-    So it is where the program has waited before for what nobody but this thread ends, outside
+    So it is where the program has waited before for what only this thread ends, outside
     its loops and behind ``block``, as for a future that it makes done at its end.
     """
     behind = [way_of(each) for each in state.effects.blocking]
@@ -140,7 +140,7 @@ def why_for_ever(
     world: RosWorld,
     spun: Sequence[Instance],
 ) -> str | None:
-    """Why nobody ends the wait ``block`` of the thread; ``None`` where somebody may."""
+    """Why nothing ends the wait ``block`` of the thread; ``None`` if something may."""
     if block.seconds is not None:
         return None
     if block.call == RATE:

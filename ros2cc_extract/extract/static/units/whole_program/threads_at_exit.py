@@ -1,5 +1,5 @@
 """
-Threads that keep the program when ``main`` is over, as nobody ends what they wait for.
+Threads that keep the program when ``main`` is over, as nothing ends their waits.
 
 The interpreter waits at its end for each thread that is no daemon, and for all threads of pools
 (CPython 3.12, ``threading.py``, ``_shutdown``; ``concurrent/futures/thread.py``,
@@ -59,7 +59,7 @@ def kept_at_exit(world: RosWorld, spun_beside: Serving) -> Iterator[Diagnostic]:
 
 
 def _ends_at_once(world: RosWorld) -> bool:
-    """Whether a text of the program ends the process without waiting for anybody."""
+    """Whether a text of the program ends the process without waiting."""
     return any(noted_on(tree, 'ends_at_once', _mentions_exit) for tree, _ in world.files)
 
 

@@ -194,7 +194,7 @@ def _is_spun_then(machine: RosMachine, executor: Instance) -> bool:
     Whether a thread spins ``executor`` while code without a known caller runs.
 
     So it is where the program hands that on, as to a window, and the spin ends with rclpy or
-    never. What nobody names may be for use before the spin, or none at all.
+    never. What no code names may be for use before the spin, or none at all.
     """
     world = machine.world
     spins = [s for s in world.spins.values() if s.executor is executor]

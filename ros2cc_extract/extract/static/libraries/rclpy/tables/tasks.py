@@ -1,4 +1,4 @@
-"""Tasks that an executor runs for nobody's entity: ``create_task``, done-callbacks."""
+"""Tasks that an executor runs without an entity: ``create_task``, done-callbacks."""
 
 from __future__ import annotations
 
