@@ -68,7 +68,7 @@ class Freedom:
         all that arrive.
     :param nested: how many callbacks may spin on one thread at a time, one inside the other;
         ``None`` for all that there can be.
-    :param observed: for comparison with executions. Answers of a service to somebody else wake
+    :param observed: for comparison with executions. Answers of a service to other clients wake
         its other clients too (Fast DDS); an awaited callback has to end once more, not once; a
         guard condition that was triggered in a closed group is looked at whenever the executor
         is woken; two workers may change places between the queue and the group; groups open
@@ -153,7 +153,7 @@ def render_alone(
     watched: str | None = None,
 ) -> ModelAlone:
     """
-    Write the model of ``closed`` for somebody who asks the queries without reading them there.
+    Write the model of ``closed`` for a caller that asks the queries separately.
 
     :param max_cycle: as for ``render``.
     :param watched: a formula over the global variables of the plain text. The model then has a
@@ -215,7 +215,7 @@ def _write_xml(
     sources = choose_sources(profile, text, unit)
     in_play = CALLBACKS_IN_PLAY if unit.max_cycle else CALLBACKS_IN_PLAY_FOR_EVER
     if unit.has_spins or unit.has_foreign or unit.has_absent:
-        in_play = len(unit.callbacks)  # whom a nested spin serves may matter, be they many
+        in_play = len(unit.callbacks)  # all that a nested spin serves may matter
     values = {
         'unit': unit,
         **features,
@@ -262,7 +262,7 @@ def _features(unit: Unit, freedom: Freedom, rclpy: str | None) -> Mapping[str, o
         'asks_groups': has_executor_laps,
         'num_actors': 'NUM_ACTOR' if unit.activities else 'NUM_CB',
         'is_activity': False,
-        # On a pool whoever spins the pool only hands over, and the workers run what is there.
+        # On a pool the spinning thread only hands over, and the workers run what is there.
         'nests_on_threads': unit.has_global_spins or (unit.has_own_spins and not has_pool),
         'nested_runs': min(unit.nested_runs, freedom.nested or unit.nested_runs),
         'drops_harvest': unit.has_own_spins and not has_pool,
@@ -299,7 +299,7 @@ def _fill(template: str, **values: object) -> str:
 
 @cache
 def _environment() -> Environment:
-    # Imported late: who reads kept verdicts starts faster without.
+    # Imported late: reading kept verdicts starts faster without it.
     from ros2cc_extract.generator.templates import environment
 
     return environment()

@@ -44,7 +44,7 @@ class Annotation:
 
 
 def read_annotation(comment: str) -> Annotation | None:
-    """Read the comment of an edge; ``None`` where it is none of our annotations."""
+    """Read the comment of an edge; ``None`` if it is not one of our annotations."""
     head, *fields = ' '.join(comment.split()).split('; ')
     if not head.startswith(_MARK) or not all(': ' in field for field in fields):
         return None

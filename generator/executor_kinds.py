@@ -42,7 +42,7 @@ class TaskOrder(Enum):
 
 
 def task_order(rclpy: str | None) -> TaskOrder | None:
-    """Tell in which order a version of rclpy serves tasks; ``None`` where that is not known."""
+    """Return in which order a version of rclpy serves tasks; ``None`` if that is not known."""
     is_oldest_first = TASKS_OLDEST_FIRST.holds(rclpy)
     if is_oldest_first is None:
         return None
@@ -86,12 +86,12 @@ _RANK_OF_TYPE = {
 
 
 def rank_of(callback: Callback) -> int:
-    """Tell when an entity is served among what is ready: 0 first."""
+    """Return the position of an entity among what is ready: 0 is served first."""
     if callback.entity is None:
         return _RANK_OF_TYPE[callback.type]
     return _RANK[callback.entity]
 
 
 def runs_of_an_arrival(callback: Callback) -> int:
-    """Tell how many runs, at one time, what has arrived once can give where nobody spins."""
+    """Return how many runs one arrival can give at one time while nothing spins."""
     return QUEUED_TWICE if rank_of(callback) == GUARD_RANK else 1

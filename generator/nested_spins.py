@@ -1,5 +1,5 @@
 """
-Nested spins: what a callback that spins an executor waits for, and whom it serves meanwhile.
+Nested spins: what a callback that spins an executor waits for, and what it serves meanwhile.
 
 Sources: rclpy 7.1.6 and 9.1.2, ``__init__.py`` (``spin_until_future_complete`` adds the node to
 the global executor and takes it out afterwards), ``node.py`` (the setter of ``executor`` takes a
@@ -57,7 +57,7 @@ class NestedSpin:
 
     :param node: the node that the global executor gets.
     :param needed: name of the callback that must run before it ends; ``None`` where it ends
-        otherwise, or nobody knows.
+        otherwise, or it is unknown.
     :param is_timed: it also ends by itself, or for a reason that is not known.
     """
 
@@ -75,7 +75,7 @@ def is_spin(block: Blocking) -> bool:
 
 
 def is_aside(block: Blocking) -> bool:
-    """True for a nested spin of nodes that nothing else serves: it is told who ends it."""
+    """Return whether only a nested spin serves its nodes: only then it has wakers."""
     return is_spin(block) and bool(block.wakers)
 
 
@@ -91,7 +91,7 @@ def nested_spins(callback: Callback, spec: Spec) -> Iterator[tuple[Blocking, Nes
     Give the nested spins of a callback in their order, and what the model has of each.
 
     There is nothing where another executor, or a node of another one, is spun; one that serves
-    nobody here, and whose end is known, is left out.
+    nothing here, and whose end is known, is left out.
     """
     loops = [block for block in callback.blocking if block.call == _BUSY_WAIT]
     for block in callback.blocking:
@@ -103,7 +103,7 @@ def nested_spins(callback: Callback, spec: Spec) -> Iterator[tuple[Blocking, Nes
 
 
 def is_open(spin: NestedSpin | None) -> bool:
-    """True where nobody knows whether it comes to an end."""
+    """True if it is unknown whether it comes to an end."""
     return spin is None or (spin.end is SpinEnd.NOTHING and spin.is_timed)
 
 
@@ -116,7 +116,7 @@ def _is_step(block: Blocking) -> bool:
 
 
 def _is_of_another(future: Blocking, callback: Callback) -> bool:
-    """Tell a future from its spin: two waits of one place; without a spin it is left alone."""
+    """Return whether the wait for a future is part of a spin, another wait of its place."""
     return future.call == _FOR_FUTURE and any(
         block.call != _FOR_FUTURE and future in _futures_of(block, callback)
         for block in callback.blocking
@@ -156,7 +156,7 @@ def _nested_spin(
 
 
 def _setter(future: Blocking, callback: Callback, spec: Spec) -> str | None:
-    """The one callback that makes a future done; a done-callback is none, it waits itself."""
+    """The one callback that makes a future done; not a done-callback, which waits itself."""
     found = next((c for c in spec.callbacks if c.name == future.on), None)
     is_other = found is not None and found.name != callback.name
     return found.name if found and is_other and not client_before(found, spec.callbacks) else None
@@ -191,7 +191,7 @@ def _is_global(spec: Spec) -> bool:
 
 def _refusal(block: Blocking, how: str, spun: Spun, spec: Spec) -> Refusal:
     """
-    Tell whether the executor, which spins already, lets itself be spun.
+    Return whether the executor, which spins already, lets itself be spun.
 
     Measured on 7.1.6: where the thread that spins a pool and a worker ask for the same, both
     resume one generator, and one of them gets ``ValueError: generator already executing``.

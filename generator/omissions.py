@@ -16,9 +16,9 @@ def left_out_of_models(callback: Callback, spec: Spec) -> tuple[str, ...]:
     """
     Say what may hold a callback forever, or let others run inside it, and is in no model.
 
-    A service that nobody in the unit offers may be absent; so may whoever sets an event, or
+    A service that nobody in the unit offers may be absent; so may code that sets an event, or
     makes a future done, that could not be followed. And a run that had not ended when it was
-    recorded may wait for what nobody here knows of.
+    recorded may wait for what is unknown here.
     """
     found: dict[object, str] = {}
     for block in unknown_ends(callback, spec):

@@ -16,7 +16,7 @@ from ros2cc_extract.spec.effects import Blocking, Waker
 
 
 class WaitKind(Enum):
-    """What a callback keeps while it waits, and who ends the wait."""
+    """What a callback keeps while it waits, and what ends the wait."""
 
     HELD = 'the thread is held until another callback has run'
     AWAITED = 'the thread is freed, the group is held'
@@ -46,8 +46,8 @@ class Resource:
     :param is_each: a signal ends one wait; else the first ends all, for good.
     :param initial: how many waits end without a signal.
     :param least: of what ends for good, how many signals that takes.
-    :param forgets: a signal is lost while nobody waits.
-    :param given_by: of what ends for good, who ends it, and where: what ends one wait for it may
+    :param forgets: a signal is lost while nothing waits.
+    :param given_by: of what ends for good, what ends it, and where: what ends one wait for it may
         come too early for another.
     """
 
@@ -69,9 +69,9 @@ class NamedWait:
     :param lock: what it waits for, to keep it over the next wait if that holds it.
     :param held: locks that are held meanwhile, outermost first.
     :param resource: that it waits for, or gives a signal to.
-    :param begun: starts of which one must have been given: what is waited for is not there before.
-    :param may_skip: a branch may skip it; of a signal, then nobody knows whether it comes.
-    :param is_open: somebody whom the model does not have may end it, or nobody does.
+    :param begun: starts; one of them must have been given: what is waited for is not there before.
+    :param may_skip: a branch may skip it; of a signal, then it is unknown whether it comes.
+    :param is_open: something that the model does not have may end it, or nothing does.
     :param origin: place in the specification, with ``block`` or ``waker``.
     """
 
@@ -110,5 +110,5 @@ class NamedWait:
 
 
 def gives(steps: Iterable[NamedWait], resource: Resource) -> bool:
-    """Tell whether one of some steps gives a resource a signal."""
+    """Return whether one of some steps gives a resource a signal."""
     return any(step.is_signal and step.resource == resource for step in steps)

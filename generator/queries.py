@@ -47,8 +47,8 @@ class Query:
     :param callbacks: names of the callbacks it is about, in the unit's order.
     :param groups: names of the groups it is about.
     :param left_out: what the node does that is not in the model and could refute the claim.
-    :param whatever: the claim however it is with what is not known; ``formula`` then counts only
-        runs in which that does not matter. A claim is refuted by the one, proven by the other.
+    :param whatever: the claim for any value of what is not known; ``formula`` then counts only
+        runs in which that does not matter. ``formula`` refutes a claim, ``whatever`` proves it.
     """
 
     family: Family
@@ -91,7 +91,7 @@ def rclpy_queries(unit: Unit) -> tuple[Query, ...]:
         Query(
             family=Family.DEADLOCK,
             formula=f'A[] (deadlock imply cb_all_served(){_none_blocked(unit)})',
-            words='there is no deadlock: whatever arrives can be served',
+            words='there is no deadlock: all that arrives can be served',
         ),
         *_occupation_queries(unit),
         *(_starvation_of_data(callback) for callback in unit.callbacks),
@@ -121,7 +121,7 @@ def _without_doubt(query: Query) -> Query:
 
 
 def waits(callback: UnitCallback) -> bool:
-    """Tell whether it may not come to its end, as far as the callback itself says."""
+    """Return whether it may not come to its end, as far as the callback itself says."""
     return bool(callback.needs or callback.left_out)
 
 
@@ -129,7 +129,7 @@ def waits(callback: UnitCallback) -> bool:
 IN_DOUBT = 'in_doubt'
 #: Families whose claims rest on every callback coming to its end.
 _OF_ENDS = (Family.DEADLOCK, Family.STARVATION, Family.PROGRESS, Family.POOL_EXHAUSTION)
-#: Families about a callback in the midst of which others may run, in a nested spin.
+#: Families about a callback that others may run inside of, in a nested spin.
 _OF_OVERLAP = (
     Family.NEVER_TOGETHER,
     Family.CAN_OVERLAP,
@@ -158,7 +158,7 @@ def with_doubts(queries: tuple[Query, ...]) -> Iterator[Query]:
     for query in queries:
         yield query
         if query.whatever is not None:
-            words = f'{query.words}; whatever is not known'
+            words = f'{query.words}, for all values of what is not known'
             yield replace(query, formula=query.whatever, words=words)
 
 
@@ -254,7 +254,7 @@ def _self_overlap(callback: UnitCallback) -> Query:
 
 
 def _progress(callback: UnitCallback, unit: Unit) -> Query:
-    """Arrivals are bounded, so whoever is stuck is stuck when nothing moves any more."""
+    """Arrivals are bounded, so what is stuck is stuck when nothing moves any more."""
     ending = [
         ' or '.join(wait.wakers) or unit.callbacks[wait.place].name
         for wait in callback.waits
@@ -271,7 +271,7 @@ def _progress(callback: UnitCallback, unit: Unit) -> Query:
 
 
 def _none_blocked(unit: Unit) -> str:
-    """Say that no activity waits, of those about whose waits all is known."""
+    """Say that no activity waits, of those whose waits are all known."""
     blocked = ' or '.join(f'{a.name}.blocked' for a in unit.activities if a.is_asked)
     return f' and not ({blocked})' if blocked else ''
 
@@ -287,7 +287,7 @@ def _progress_beside(activity: UnitActivity) -> Query:
 
 
 def _pool_exhaustion(unit: Unit) -> Iterator[Query]:
-    """Every thread waits, and whoever could end a wait would need one."""
+    """Every thread waits, and what could end a wait would need one."""
     waiting = [
         c
         for c in unit.callbacks
@@ -336,7 +336,7 @@ def _serial(unit: Unit) -> Query:
 
 
 def _spun_for(callback: UnitCallback) -> tuple[int, ...]:
-    """Places of the callbacks for which a callback spins."""
+    """Places of the callbacks that a callback spins for."""
     return tuple(wait.place for wait in callback.waits if wait.spin and wait.is_for_callback)
 
 

@@ -1,8 +1,8 @@
 """
-Waits whose wakers the specification names: what they are for, and who ends them.
+Waits whose wakers the specification names: what they are for, and what ends them.
 
-A wait that time or somebody outside ends is none in the model, which has no clock: the callback
-that waits runs on. One that somebody unknown may end is open: it may be left at any moment, and
+A wait that time or code outside ends is not in the model, which has no clock: the callback
+that waits runs on. One that unknown code may end is open: it may be left at any moment, and
 it may stay until a waker that is known ends it.
 """
 
@@ -20,9 +20,9 @@ from ros2cc_extract.spec.effects import AWAIT, OUTSIDE, TIME, Blocking, Needs, W
 from ros2cc_extract.spec.model import Activity, Callback, CallbackType, GroupType, Spec
 
 Actor = Callback | Activity
-#: Whose names stand for nobody of the unit.
+#: Names that stand for nothing in the unit.
 _BY_ITSELF = (OUTSIDE, TIME)
-# Waits for the end of a run, which nobody can wait for before it has been started: a thread that
+# Waits for the end of a run, which nothing can wait for before it has been started: a thread that
 # was not refuses to be joined, and a future of a job is made with the job.
 FOR_RUNS = ('Thread.join', 'Process.join', 'Future.result', 'Future.exception', 'futures.wait')
 
@@ -34,12 +34,12 @@ def all_actors(spec: Spec) -> tuple[Actor, ...]:
 
 def goes_by_wakers(block: Blocking, spec: Spec) -> bool:
     """
-    Tell whether a specification says who ends a wait.
+    Return whether a specification says what ends a wait.
 
-    An answer comes from the client that is asked, whoever else is named.
+    An answer comes from the client that is asked, even if others are named.
     """
-    is_told = block.resource is not None or block.wakers or block.escapes is not None
-    if not is_told or is_foreign(block, spec):
+    is_named = block.resource is not None or block.wakers or block.escapes is not None
+    if not is_named or is_foreign(block, spec):
         return False
     asked = _by_name(spec).get(block.on) if isinstance(block.on, str) else None
     is_client = asked is not None and asked.type is CallbackType.CLT
@@ -53,7 +53,7 @@ def _by_name(spec: Spec) -> Mapping[str, Callback]:
 
 def is_foreign(block: Blocking, spec: Spec) -> bool:
     """
-    Tell whether only a thread of the user's own makes done what is awaited.
+    Return whether only a thread of the user's own completes what is awaited.
 
     How the events executor goes on then was not read.
     """
@@ -64,11 +64,11 @@ def is_foreign(block: Blocking, spec: Spec) -> bool:
 
 def may_pass_unseen(block: Blocking, callback: Callback, spec: Spec) -> bool:
     """
-    Tell whether a lap may ask the coroutine before the task has ended, and none follows.
+    Return whether a lap may ask the coroutine before the task has ended, and none follows.
 
     In a pool they run at the same time. On one thread the work of an entity makes two laps
     begin, and each asks the coroutines in turn: it takes two tasks, one ended by the other, of
-    which each is asked behind who waits for it, as one that was made before.
+    which each is asked after what waits for it, as one that was made before.
     """
     kind = executor_kind(spec)
     enders = [ender for ender in _tasks_that_end(block, spec) if ender.name != callback.name]
@@ -93,7 +93,7 @@ def _tasks_that_end(block: Blocking, spec: Spec) -> Iterator[Callback]:
 
 
 def _is_made_within(task: Callback, callback: Callback, block: Blocking) -> bool:
-    """Tell whether a run makes the task before it awaits it, by lines: it is asked before."""
+    """Return whether a run makes the task before it awaits it, by lines: it is asked before."""
     begin, made, end = callback.defined, task.source, block.source
     if begin is None or made is None or end is None:
         return False
@@ -129,7 +129,7 @@ def resource_waits(block: Blocking, callback: Actor, spec: Spec) -> Iterator[Nam
 
 
 def _ends_by_itself(block: Blocking) -> bool:
-    """Tell whether time or somebody outside ends it; and all of them where all are needed."""
+    """Return whether time or code outside ends it; if all wakers are needed, whether all do."""
     by_itself = [waker.by in _BY_ITSELF for waker in block.wakers]
     return all(by_itself) and bool(by_itself) if block.needs is Needs.ALL else any(by_itself)
 
@@ -148,13 +148,13 @@ def _begun(block: Blocking, wakers: tuple[Waker, ...], spec: Spec) -> tuple[Reso
 
 
 def ends_outside(block: Blocking, spec: Spec) -> bool:
-    """Tell whether a wait is taken to end because somebody outside may end it."""
+    """Return whether a wait is taken to end because code outside may end it."""
     is_outside = any(waker.by == OUTSIDE for waker in block.wakers)
     return goes_by_wakers(block, spec) and block.seconds is None and is_outside
 
 
 def is_left_open(block: Blocking, spec: Spec) -> bool:
-    """Tell whether it is not known of a wait who may end it."""
+    """Return whether it is unknown what may end a wait."""
     is_timed = block.seconds is not None or _ends_by_itself(block)
     return goes_by_wakers(block, spec) and not is_timed and _is_open(block, spec)
 
@@ -172,9 +172,9 @@ def _goes_by_data(block: Blocking, spec: Spec) -> bool:
 
 def may_be_used_up(block: Blocking, spec: Spec) -> bool:
     """
-    Tell whether waits that end without a signal may all have been used by earlier runs.
+    Return whether waits that end without a signal may all have been used by earlier runs.
 
-    The model lets data arrive too seldom for that. Whoever gives back what it takes itself uses
+    The model lets data arrive too seldom for that. Code that gives back what it takes itself uses
     up nothing.
     """
     if block.initial <= 0 or block.counted:
@@ -209,7 +209,7 @@ def _signals(spec: Spec) -> Mapping[str, Sequence[tuple[Resource, Waker]]]:
         for waker in activity.starts:
             if start is not None:
                 found.setdefault(waker.by, []).append((start, waker))
-    told: dict[object, tuple[list[tuple[Resource, Waker]], int]] = {}
+    ordered: dict[object, tuple[list[tuple[Resource, Waker]], int]] = {}
     for waiting in all_actors(spec):
         for block in waiting.blocking:
             is_spin = isinstance(waiting, Callback) and is_part_of_spin(block, waiting)
@@ -219,13 +219,13 @@ def _signals(spec: Spec) -> Mapping[str, Sequence[tuple[Resource, Waker]]]:
             for resource, wakers in _resources_of(block, waiting, spec):
                 for waker in wakers:
                     key = (waker.by, resource, waker.after, waker.source, waker.held)
-                    if key not in told:
+                    if key not in ordered:
                         own = found.setdefault(waker.by, [])
-                        told[key] = own, len(own)
+                        ordered[key] = own, len(own)
                         own.append((resource, waker))
                     elif waker.conditional:
                         # It may be kept from the one wait and not from the other.
-                        own, place = told[key]
+                        own, place = ordered[key]
                         own[place] = resource, waker
     return found
 
@@ -234,7 +234,7 @@ def start_of(activity: Activity, spec: Spec) -> Resource | None:
     """
     Give what starts an activity; ``None`` where it runs from the beginning, or may.
 
-    One that does nothing for anybody is not started, as models do not have it.
+    One that does nothing for others is not started, as models do not have it.
     """
     known = _known(spec)
     is_known = all(waker.by in known for waker in activity.starts)
@@ -244,7 +244,7 @@ def start_of(activity: Activity, spec: Spec) -> Resource | None:
 
 
 def concerns_others(activity: Activity, spec: Spec) -> bool:
-    """Tell whether an activity waits, takes locks, ends a wait or starts another one."""
+    """Return whether an activity waits, takes locks, ends a wait or starts another one."""
     if activity.unresolved is not None:
         return False
     return bool(activity.blocking or activity.locks) or activity.name in _wake_or_start(spec)
@@ -252,7 +252,7 @@ def concerns_others(activity: Activity, spec: Spec) -> bool:
 
 @once
 def _wake_or_start(spec: Spec) -> frozenset[str]:
-    """Who ends waits of others, or starts activities."""
+    """What ends waits of others, or starts activities."""
     blocks = (block for actor in all_actors(spec) for block in actor.blocking)
     wakers = {w.by for block in blocks if goes_by_wakers(block, spec) for w in block.wakers}
     return frozenset(wakers | {waker.by for other in spec.activities for waker in other.starts})
@@ -303,7 +303,7 @@ def _resources_of(
 
 def _must_run_once_more(block: Blocking, callback: Actor, spec: Spec) -> bool:
     """
-    Tell whether nobody ends a wait before who waits, in an exclusive group, runs once more.
+    Return whether nothing ends a wait before its callback, in an exclusive group, runs again.
 
     So does a feedback callback that waits for what comes with the result: its client takes both.
     """
@@ -318,7 +318,7 @@ def _must_run_once_more(block: Blocking, callback: Actor, spec: Spec) -> bool:
 
 
 def private_resource(block: Blocking, callback: Actor) -> Resource:
-    """What a wait is for of which nothing is known."""
+    """What an unknown wait is for."""
     return Resource(f'{callback.name} {callback.blocking.index(block)}', is_each=False)
 
 

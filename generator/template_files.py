@@ -1,4 +1,4 @@
-"""Which template files make up which text of which profile."""
+"""The template files of each text of each profile."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Profile(Enum):
-    """Whose executor the model describes."""
+    """The profile of the model: which executor it describes."""
 
     PAPER = 'paper'
     RCLPY = 'rclpy'

@@ -3,7 +3,7 @@ Renders template files; what they are compiled to is kept where Python keeps its
 
 Compiling the templates takes longer than rendering and reading a small model. The user's cache
 is no place for the results, because nothing in it may run. ``__pycache__`` beside this module is
-one: who can write there can already change this program.
+one: a user that can write there can already change this program.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class KeptBytecode(FileSystemBytecodeCache):
         """A damaged file counts as none."""
         try:
             super().load_bytecode(bucket)
-        except Exception:  # whatever pickle says of it
+        except Exception:  # pickle may raise anything
             bucket.reset()
 
     def dump_bytecode(self, bucket: Bucket) -> None:

@@ -100,7 +100,7 @@ class UnitResource:
     What callbacks wait for and give signals to.
 
     :param most: how many signals are kept; more would end no more waits.
-    :param forgets: they are kept for those alone who wait already.
+    :param forgets: they are kept only for those that wait already.
     :param least: so many must be there before a wait ends.
     """
 
@@ -157,7 +157,7 @@ class Unit:
 
     @property
     def has_tokens(self) -> bool:
-        """True when whoever gives a signal may have to give another one."""
+        """Return whether code that gives a signal may have to give another one."""
         return any(resource.counts for resource in self.resources)
 
     @property
@@ -167,12 +167,12 @@ class Unit:
 
     @property
     def counted(self) -> str:
-        """The table of what whoever waits is counted for."""
+        """The table of what each waiting callback is counted for."""
         return 'resource_counts' if self.has_counts else 'resource_each'
 
     @property
     def has_forgetful(self) -> bool:
-        """True when signals are lost for which nobody waits."""
+        """True if signals without a waiter are lost."""
         return any(resource.forgets for resource in self.resources)
 
     @property
@@ -335,7 +335,7 @@ class Unit:
 
 
 def _arrivals(closed: ClosedSpec, actors: Iterable[str], max_cycle: int | None) -> dict[str, int]:
-    """How often each becomes ready, where there is a bound: who runs once only once."""
+    """How often each becomes ready, if there is a bound: what runs once only once."""
     if not max_cycle:
         return dict.fromkeys(actors, 1)
     once = {callback.name: 1 for callback in closed.spec.callbacks if callback.one_shot}
@@ -418,7 +418,7 @@ def _number_wait(
         spin=wait.spin,
         node=nodes.get(spun_node, 0),
         lock=locks.index(wait.lock) if wait.lock else None,
-        # A lock that nobody waits for keeps nobody out.
+        # A lock that nothing waits for keeps nothing out.
         held=frozenset(locks.index(lock) for lock in wait.held if lock in locks),
         resource=resource,
         begun=frozenset(resources.index(each) for each in wait.begun if each in resources),
@@ -465,7 +465,7 @@ def _start_of(activity: Activity, spec: Spec, resources: Sequence[Resource]) -> 
 
 
 def _begins_with_wait(own: Sequence[NamedWait], steps: Mapping[str, Sequence[NamedWait]]) -> bool:
-    """True where the first step is a wait for a signal that somebody gives."""
+    """True where the first step is a wait for a signal that is given."""
     resource = own[0].resource if own and not own[0].is_signal else None
     return resource is not None and any(gives(other, resource) for other in steps.values())
 
@@ -484,7 +484,7 @@ def resources_of(steps: Mapping[str, Sequence[NamedWait]]) -> tuple[Resource, ..
 def _most_signals(
     resource: Resource, steps: Mapping[str, Sequence[NamedWait]], arrivals: Mapping[str, int]
 ) -> int:
-    """One for each arrival of whoever gives it; one for good where the first ends all waits."""
+    """One for each arrival of its giver; one for good where the first ends all waits."""
     if not resource.is_each:
         return resource.least
     given = sum(

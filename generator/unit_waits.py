@@ -46,7 +46,7 @@ class UnitWait:
 
     @property
     def is_absent(self) -> bool:
-        """For a service that nobody may ever offer."""
+        """For a service that may never be offered."""
         return self.kind is WaitKind.ABSENT
 
     @property
@@ -78,7 +78,7 @@ class UnitWait:
 @dataclass(frozen=True, order=True)
 class SpinForm:
     """
-    How nested spins are told.
+    How nested spins are described.
 
     :param spun: number of the executor.
     """

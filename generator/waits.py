@@ -40,13 +40,13 @@ def waits_of(callback: Actor, spec: Spec) -> tuple[NamedWait, ...]:
     """
     List the waits that others end; one with a time-out ends by itself, unless it spins.
 
-    Whoever waits for a service that nobody offers does so last, as long as nobody waits for
+    A callback that waits for a service that nobody offers does so last, if nobody waits for
     what it does afterwards: what else may hold the callback is then seen without it. Signals for
     waits of others stand among the waits.
     """
     known = known_of(spec).setdefault(waits_of, {})
     if id(callback) not in known:
-        # Kept with its callback, lest another one gets its number.
+        # Kept with its callback, so that no other one gets its number.
         known[id(callback)] = callback, tuple(_waits_of(callback, spec))
     found: tuple[NamedWait, ...] = known[id(callback)][1]
     return found
@@ -113,7 +113,7 @@ def _for_others(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
 
 def _for_absent(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
     if isinstance(callback, Activity):
-        return  # it is taken that somebody outside offers it
+        return  # assumed: a node outside offers it
     for place, block in enumerate(callback.blocking):
         if is_absent(block, spec) and isinstance(block.on, str):
             held = _held_locks(block, callback, spec)
@@ -146,7 +146,7 @@ def _waits_for_callbacks(block: Blocking, callback: Actor, spec: Spec) -> Iterat
 
 def _gives_way(block: Blocking) -> bool:
     """
-    Tell whether others run meanwhile, though time ends it.
+    Return whether others run meanwhile, though time ends it.
 
     That matters where they are kept out of something.
     """
@@ -202,7 +202,7 @@ def _taken_locks(callback: Actor) -> tuple[Lock, ...]:
 
 def _held_locks(block: Blocking, callback: Actor, spec: Spec) -> tuple[Lock, ...]:
     """
-    Locks that are held over a wait and keep out whoever else takes them.
+    Locks that are held over a wait and keep out all others that take them.
 
     One that its holder may take again keeps out other threads: an executor of one thread has
     none, and which thread goes on after an ``await``, or runs what a nested spin finds, is open.
@@ -223,7 +223,7 @@ def _is_of_spin(block: Blocking, actor: Actor) -> bool:
 
 
 def is_unknown(block: Blocking, activity: Activity, spec: Spec) -> bool:
-    """Tell whether nothing is said of what ends a wait of an activity; no spin of one is known."""
+    """Return whether it is unknown what ends a wait of an activity; of a spin it always is."""
     if is_spin(block):
         return True
     others = {other.name for other in spec.callbacks if other.name != activity.name}
@@ -233,7 +233,7 @@ def is_unknown(block: Blocking, activity: Activity, spec: Spec) -> bool:
 
 
 def modelled_activities(spec: Spec) -> Iterator[Activity]:
-    """Give the activities of which something depends on, or that wait themselves."""
+    """Return the activities that something depends on, or that wait themselves."""
     for activity in spec.activities:
         if concerns_others(activity, spec) and any(waits_of(activity, spec)):
             yield activity
@@ -265,7 +265,7 @@ def unknown_ends(callback: Callback, spec: Spec) -> Iterator[Blocking]:
 
 def foreign_wakes(spec: Spec) -> bool:
     """
-    Tell whether a thread of the user's own that makes a future done wakes the executor.
+    Return whether a thread of the user's own that makes a future done wakes the executor.
 
     A loop of asyncio, to which the thread has to hand it over, is always woken. Before, a lap of
     an executor asks every coroutine whether it can go on, and nothing but a lap (``task.py``,
@@ -277,7 +277,7 @@ def foreign_wakes(spec: Spec) -> bool:
 
 def is_unseen(block: Blocking, callback: Callback, spec: Spec) -> bool:
     """
-    Tell whether what ends an await may pass unseen, so that only another event makes it go on.
+    Return whether what ends an await may pass unseen, so that only another event makes it go on.
 
     So may the end of a task where no future wakes the executor: only the work of an entity
     triggers its guard (rclpy 7.1.6 and 9.1.2, ``executors.py``, ``_make_handler``). The model has
@@ -288,9 +288,9 @@ def is_unseen(block: Blocking, callback: Callback, spec: Spec) -> bool:
 
 def is_absent(block: Blocking, spec: Spec) -> bool:
     """
-    Tell whether a wait without a time-out is for a service that nobody in the unit offers.
+    Return whether a wait without a time-out is for a service that nobody in the unit offers.
 
-    Where a callback waits for an answer of that client, somebody outside answers, and is there.
+    Where a callback waits for an answer of that client, a node outside answers, and is there.
     """
     if not asks_the_graph(block) or block.seconds is not None:
         return False
@@ -303,7 +303,7 @@ def is_absent(block: Blocking, spec: Spec) -> bool:
 
 @once
 def _asked_for_answers(spec: Spec) -> frozenset[str]:
-    """Of whom callbacks wait for more than that somebody is there."""
+    """The partners that callbacks wait for, other than waits until a service is there."""
     blocks = (block for callback in spec.callbacks for block in callback.blocking)
     return frozenset(b.on for b in blocks if isinstance(b.on, str) and not asks_the_graph(b))
 

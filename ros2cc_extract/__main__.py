@@ -1,8 +1,8 @@
-"""``python -m ros2cc_extract``: the command line, in whatever folder one stands."""
+"""``python -m ros2cc_extract``: the command line, from any folder."""
 
 import sys
 
-# Python looks first in the current folder, where anybody's `yaml.py` or `ast.py` may lie.
+# Python looks first in the current folder, where a foreign `yaml.py` or `ast.py` may be.
 if not (sys.flags.isolated or getattr(sys.flags, 'safe_path', False)):
     del sys.path[0]
 

@@ -1,7 +1,7 @@
 """
 Files of the user's cache folder, which this tool alone writes.
 
-What is in them is believed: verdicts and findings are told from there. So a folder or a file
+What is in them is believed: verdicts and findings are reported from there. So a folder or a file
 that another user can change counts as none, and each file says by a checksum that it is what was
 written under its name. Nothing in it can run: it is JSON, and makes values of known types.
 
@@ -56,7 +56,7 @@ def who_can_change(folder: Path) -> Path | None:
     """
     Give the folder by which another user could change what is, or will be, in ``folder``.
 
-    ``None`` where nobody could, or where that cannot be found out.
+    ``None`` if no other user could, or if that cannot be found out.
     """
     try:
         there = next(each for each in (folder, *folder.absolute().parents) if each.exists())
@@ -150,9 +150,9 @@ def _header(name: str, content: bytes) -> bytes:
 @cache
 def _own_folder(folder: Path) -> Path:
     """
-    Give the way to a folder that nobody else can bend.
+    Return the path to a folder that no other user can redirect.
 
-    :raises OSError: when somebody can, or there is no such folder.
+    :raises OSError: if another user can, or there is no such folder.
     """
     own = folder.resolve(strict=True)
     if open_to_others(own) is not None:
@@ -161,7 +161,7 @@ def _own_folder(folder: Path) -> Path:
 
 
 def _make_private(folder: Path) -> None:
-    """Make a folder and those above it, closed to others whatever the process may grant."""
+    """Make a folder and those above it, closed to others with any umask."""
     if not folder.is_dir():
         if folder.parent != folder:
             _make_private(folder.parent)

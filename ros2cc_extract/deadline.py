@@ -14,7 +14,7 @@ from types import FrameType
 from ros2cc_extract.light_dataclasses import dataclass
 
 GRACE_S = 2.0
-"""So long whoever looks at the clock may take to tell what is done."""
+"""Time for code that looks at the clock to report what is done."""
 _SOON_S = 0.01
 
 
@@ -46,8 +46,8 @@ class Patience:
     """
     When to end before all is done.
 
-    :param deadline: what is not done by then is told.
-    :param keeps_interrupted: an interrupt ends it, and what is done is told; else nothing is.
+    :param deadline: what is not done by then is reported.
+    :param keeps_interrupted: an interrupt ends it, and what is done is reported; else nothing is.
     """
 
     deadline: Deadline | None = None
@@ -77,11 +77,11 @@ def alarm(seconds: float | None, again_s: float) -> Iterator[Callable[[], None] 
     End what still runs after ``seconds``, wherever it is.
 
     Gives what takes the alarm back, or ``None`` where none was set: without a limit, in threads
-    that hear no signals, where there are alarms of somebody else, and where the system has none,
+    that hear no signals, where there are alarms of other code, and where the system has none,
     as in a browser. Work that looks at the clock itself ends in time there too.
 
     :param again_s: what is raised while an object is taken apart is lost, so it rings again
-        after so long; and soon where the garbage collector tells somebody of its work.
+        after so long; and soon where the garbage collector runs a callback.
     :raises TimeOverError: then.
     """
     is_heard = threading.current_thread() is threading.main_thread()

@@ -1,4 +1,4 @@
-"""What we tell about the user's program: a leaf for every room."""
+"""Messages about the user's program; every package may import this module."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class Diagnostic:
 
 def unreadable_folder(error: OSError, shown: str | None = None) -> Diagnostic:
     """
-    Tell of a folder that cannot be looked into: it weighs as a file that is not read.
+    Report a folder that cannot be listed, with the severity of a file that is not read.
 
     :param shown: its path as shown to the user; as it was opened by default.
     """

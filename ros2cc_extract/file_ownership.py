@@ -1,5 +1,5 @@
 """
-Which files nobody but this user, and root, can have changed.
+Which files only this user, and root, can have changed.
 
 What is handed to another process, or believed because we wrote it ourselves, must not be
 replaceable: not by its own mode, and not by a rename in a folder above it.
@@ -19,7 +19,7 @@ def open_to_others(folder: Path) -> Path | None:
     """
     Give the folder, or the nearest above it, in which another user could rename things.
 
-    A sticky folder, such as ``/tmp``, lets nobody rename what is not his own.
+    A sticky folder, such as ``/tmp``, lets a user rename only own files.
 
     :raises OSError: when one of them cannot be looked at.
     """
@@ -36,7 +36,7 @@ def changeable_by_others(status: os.stat_result) -> bool:
 
 
 def is_own(status: os.stat_result) -> bool:
-    """Whether a file belongs to this user, or to root, who needs no rights."""
+    """Whether a file belongs to this user, or to root, which needs no rights."""
     # Where the system knows no users, as in a browser, all is of one.
     user = os.geteuid() if hasattr(os, 'geteuid') else ROOT
     return status.st_uid in (user, ROOT)
@@ -49,7 +49,7 @@ def _upwards(folder: Path) -> Iterator[Path]:
 
 def user_of_process(pid: int) -> int | None:
     """
-    Give the user as whom a process acts; ``None`` when its user numbers differ (proc(5), status).
+    Return the user that a process acts as; ``None`` if its user numbers differ (proc(5), status).
 
     :raises OSError: when there is no such process.
     """

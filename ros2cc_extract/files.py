@@ -33,7 +33,7 @@ class Files(Protocol):
         """Whether there is anything at ``path``, as far as one may look."""
 
     def is_file(self, path: Path) -> bool:
-        """Whether a regular file is there; what is barred counts, so that reading it tells."""
+        """Whether a regular file is there; also one without permission: reading it says so."""
 
     def is_folder(self, path: Path) -> bool:
         """Whether a folder is there."""
@@ -46,7 +46,7 @@ class Files(Protocol):
         """
 
     def walk(self, folder: Path, on_error: OnError) -> Iterator[Walked]:
-        """As ``os.walk``: whoever takes names out of the list of folders leaves these out."""
+        """Walk as ``os.walk`` does: folders that the caller removes from the list are left out."""
 
 
 class Disk:
@@ -112,7 +112,7 @@ def read_regular(path: Path, most_bytes: int, *, follow: bool = True) -> bytes:
     """
     with open_regular(path, follow=follow) as stream:
         size = os.fstat(stream.fileno()).st_size
-        # Not ``most_bytes`` at once, for which as much memory would be laid out.
+        # Not ``most_bytes`` at once, which would allocate as much memory.
         content = b'' if size > most_bytes else stream.read(size + 1)
         if len(content) > size:
             content += stream.read(most_bytes + 1 - len(content))
@@ -160,12 +160,12 @@ def real_path(path: Path | str) -> Path:
 
 
 def too_large(path: Path, most_bytes: int) -> OSError:
-    """The error of a file that is larger than somebody is ready to read."""
+    """The error of a file that is larger than the limit."""
     return OSError(errno.EFBIG, f'it is larger than {most_bytes} bytes', str(path))
 
 
 def _mode(path: Path) -> int | None:
-    """Kind of the file at ``path``; ``None`` where there is none."""
+    """Kind of the file at ``path``; ``None`` if there is no file."""
     try:
         return os.stat(path).st_mode  # noqa: PTH116  a third of the time that Path.stat() takes
     except OSError as error:

@@ -1,7 +1,7 @@
 """
 What many ask of a value that never changes: found once for each.
 
-To compare or hash a large value is dear: values are told apart by identity, and what is known of
+Comparing or hashing a large value is slow: here identity counts, and what is known of
 one is forgotten with it.
 """
 

@@ -2,7 +2,7 @@
 Values as plain data, such as JSON holds, and back by the types of their fields.
 
 What is read makes values of the types that the reader asks for, and nothing else: data names no
-class and no function, so whoever wrote it can make nothing run. Data of another form is refused.
+class and no function, so its author can make nothing run. Data of another form is refused.
 """
 
 from __future__ import annotations
@@ -112,7 +112,7 @@ def _checked(leaves: frozenset[type]) -> Function:
 
 def _of_union(kinds: tuple[Any, ...]) -> tuple[Function, Function]:
     """
-    A kind tells itself by its class, and its data by their form.
+    A kind is recognised by its class, and its data by their form.
 
     :raises TypeError: when two of the kinds have data of one form.
     """
@@ -235,7 +235,7 @@ def _of_dataclass(kind: type[Any]) -> tuple[Function, Function]:
         if len(found) != len(own):
             raise PackingError(f'a field of {kind.__name__} is missing')
         value = object.__new__(kind)
-        # As unpickling does: a frozen class lets nobody set one field after the other.
+        # As unpickling does: a frozen class lets no code set one field after the other.
         object.__setattr__(value, '__dict__', found)
         checks(value)
         return value

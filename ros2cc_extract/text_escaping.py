@@ -2,8 +2,8 @@
 Text that strangers wrote, for people to read: names, paths, topics, source lines.
 
 Such text may hold what a terminal obeys (ESC, C1), what makes one line look like two, or what
-turns the order of letters round (bidi controls). Whatever Python calls not printable is shown as
-its escape, as source would write it, so that everybody sees what is there. JSON and YAML have
+turns the order of letters round (bidi controls). All that Python calls not printable is shown as
+its escape, as source would write it, so that you see what is there. JSON and YAML have
 escapes of their own.
 """
 
@@ -127,15 +127,15 @@ class Shown:
         self._in_log = in_log or by_lines
 
     def write(self, text: str) -> int:
-        told = text if text == '\n' else self._told(text)
-        self.raw.write(without_commands(told) if self._in_log else told)
+        cleaned = text if text == '\n' else self._cleaned(text)
+        self.raw.write(without_commands(cleaned) if self._in_log else cleaned)
         return len(text)
 
     def writelines(self, parts: Iterable[str]) -> None:
         for part in parts:
             self.write(part)
 
-    def _told(self, text: str) -> str:
+    def _cleaned(self, text: str) -> str:
         if self._by_lines:
             end = '\n' if text.endswith('\n') else ''
             return one_line(text.removesuffix('\n')) + end
@@ -148,5 +148,5 @@ class Shown:
 
 
 def raw(stream: TextIO) -> TextIO:
-    """Give the stream behind: for who draws on a terminal, and shows what is foreign himself."""
+    """Return the stream behind: for code that draws on a terminal, and escapes text itself."""
     return stream.raw if isinstance(stream, Shown) else stream

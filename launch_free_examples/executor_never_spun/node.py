@@ -2,7 +2,7 @@
 A setting without effect: the multi-threaded executor is filled, but another one is spun.
 
 ``rclpy.spin(node)`` takes the node out of its executor and puts it into the global
-single-threaded one. The camera therefore waits for the slow upload, whatever the groups say.
+single-threaded one. The camera therefore waits for the slow upload, no matter what the groups say.
 """
 
 import argparse

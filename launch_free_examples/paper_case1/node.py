@@ -2,7 +2,7 @@
 Case 1 of the paper: one thread.
 
 Two timers fire every second. The subscription to msg_C works for one second a message, the one
-to msg_D for two. One thread serves whatever is ready, in turns.
+to msg_D for two. One thread serves all that is ready, in turns.
 """
 
 import argparse

@@ -130,7 +130,7 @@ def _check(
         jobs=jobs,
     )
     replayer = Replayer(model.elaboration, network, fairness)
-    told = [
+    reported = [
         Answer(
             query=query,
             verdict=outcome.verdict,
@@ -142,7 +142,7 @@ def _check(
         )
         for query, prop, outcome in zip(asked, properties, result.outcomes, strict=True)
     ]
-    answers = with_twins(queries, told, twins)
+    answers = with_twins(queries, reported, twins)
     if result.reduce is not None:
         for answer in answers:
             _ = answer.path  # a reduction that goes wrong must fail before its verdict is seen

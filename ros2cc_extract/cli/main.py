@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Protocol, TextIO, cast
 
 from ros2cc_extract.cli.shared.exit_status import EXIT_CLEAN, EXIT_ERROR, EXIT_INTERRUPTED
-from ros2cc_extract.cli.shared.native_parts import tell_what_is_missing
+from ros2cc_extract.cli.shared.native_parts import report_missing_parts
 from ros2cc_extract.cli.shared.streams import as_utf_8, silence, with_streams
 from ros2cc_extract.cli.shared.termination import (
     Termination,
@@ -52,7 +52,7 @@ COMMANDS = {
 OF_RUNNING_NODES = ('run', 'env', 'collect', 'attach', 'why', 'confirm', 'explore')
 WRITES_DATA = ('spec', 'system', 'merge')
 HEARS_ITSELF = ('check', 'fleet', 'run', 'attach')
-"""Requests to end: they tell what is known by then, or hand them on to what they have begun."""
+"""Commands that handle requests to end: they report what is known, or pass the request on."""
 LONGEST_MESSAGE = 300
 OBJECTS_BEFORE_COLLECTING = 100_000
 """Python looks for unused cycles after 700 new objects: 100 times before a command begins."""
@@ -70,8 +70,8 @@ class Command(Protocol):
 
 def main(argv: Sequence[str], stdout: TextIO, stderr: TextIO) -> int:
     """Run the tool; everything it says goes to the two streams, as text that does nothing."""
-    told, complaints = Shown(stdout), Shown(stderr, by_lines=True)
-    return _run(list(argv), cast(TextIO, told), cast(TextIO, complaints))
+    output, complaints = Shown(stdout), Shown(stderr, by_lines=True)
+    return _run(list(argv), cast(TextIO, output), cast(TextIO, complaints))
 
 
 def _run(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
@@ -98,8 +98,8 @@ def _run(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
         print(f'{PROGRAM}: error: the input is nested too deeply', file=stderr)
         return EXIT_ERROR
     except Exception as error:
-        told = ' '.join(str(error).split())[:LONGEST_MESSAGE]
-        print(f'{PROGRAM}: internal error: {type(error).__name__}: {told}', file=stderr)
+        message = ' '.join(str(error).split())[:LONGEST_MESSAGE]
+        print(f'{PROGRAM}: internal error: {type(error).__name__}: {message}', file=stderr)
         print('this is a bug in ros2cc-extract; ROS2CC_TRACEBACK=1 shows where', file=stderr)
         if os.environ.get('ROS2CC_TRACEBACK'):
             for line in ''.join(traceback.format_exception(error)).splitlines():
@@ -110,7 +110,7 @@ def _run(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
 def entry_point() -> None:
     """Run as the console script."""
     gc.set_threshold(OBJECTS_BEFORE_COLLECTING)
-    # Who started us may not wait for children; we do, and need to know how they ended.
+    # The process that started us may ignore its children; we need to know how ours ended.
     if signal.getsignal(signal.SIGCHLD) is signal.SIG_IGN:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     status = with_streams(lambda stdout, stderr: main(sys.argv[1:], stdout, stderr))
@@ -140,7 +140,7 @@ def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
         args = parser.parse_args(argv)
     except SystemExit as exit_:
         return EXIT_CLEAN if not exit_.code else EXIT_ERROR
-    tell_what_is_missing(name, args, stderr)
+    report_missing_parts(name, args, stderr)
     if name in WRITES_DATA or getattr(args, 'output_format', 'text') != 'text':
         as_utf_8(raw(stdout))
     request = Termination()
@@ -155,7 +155,7 @@ def _dispatch(argv: list[str], stdout: TextIO, stderr: TextIO) -> int:
 
 
 def _refusal(error: OSError) -> str:
-    """What the system does not let us do, as far as it is not told where it happens."""
+    """What the system does not let us do, unless it is reported where it happens."""
     reason = error.strerror or str(error) or type(error).__name__
     if not _has_folder():
         return 'the current folder no longer exists'

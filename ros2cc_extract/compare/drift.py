@@ -1,5 +1,5 @@
 """
-Contract mode: what a program says otherwise than the specification somebody committed.
+Contract mode: differences between a program and the committed specification.
 
 Everything counts that decides how callbacks behave; where in a file it stands does not, so that
 edits which only move lines are no drift. Unlike ``merge.diff`` nothing is excused: both sides
@@ -37,7 +37,7 @@ VERBS: Mapping[str, str] = {
     'changes': 'changes',
     'pieces': 'shares piece by piece',
 }
-"""The facts that are lists, each with the verb that tells one entry."""
+"""The facts that are lists, each with the verb for one entry."""
 Named = TypeVar('Named', Callback, CallbackGroup)
 
 
@@ -112,7 +112,7 @@ def _of_named(
 
 
 def _of_order(unit: str, before: Sequence[Callback], now: Sequence[Callback]) -> Iterator[Drift]:
-    """Creation order decides who is served first, and so who starves."""
+    """Compare creation order: it decides which is served first, and so which starves."""
     old, new = ([each.name for each in side] for side in (before, now))
     kept_before = tuple(name for name in old if name in new)
     kept_now = tuple(name for name in new if name in old)
@@ -129,51 +129,51 @@ def _changes(before: object, now: object, left_out: frozenset[str]) -> Iterator[
         old, new = getattr(before, field.name), getattr(now, field.name)
         if field.name in VERBS:
             yield from _of_list(field.name, old, new)
-        elif _told(old) != _told(new):
+        elif _shown(old) != _shown(new):
             yield _was_is(WORDS.get(field.name, field.name.replace('_', ' ')), old, new)
 
 
 def _of_list(name: str, before: Sequence[object], now: Sequence[object]) -> Iterator[str]:
-    old, new = (dict.fromkeys(_told(each) for each in side) for side in (before, now))
+    old, new = (dict.fromkeys(_shown(each) for each in side) for side in (before, now))
     yield from (f'now {VERBS[name]} {each}' for each in new if each not in old)
     yield from (f'no longer {VERBS[name]} {each}' for each in old if each not in new)
 
 
 def _of_unresolved(before: Spec, now: Spec) -> Iterator[Drift]:
-    """What is unresolved elsewhere; of callbacks, groups and the executor their facts tell."""
+    """What is unresolved elsewhere; callbacks, groups and the executor report their own facts."""
     old, new = (
         {(each.subject, each.fact): each for each in unit.unresolved} for unit in (before, now)
     )
-    told = {*before.names(), *now.names()}
+    reported = {*before.names(), *now.names()}
     for (subject, fact), each in new.items():
-        if (subject, fact) not in old and subject not in told:
+        if (subject, fact) not in old and subject not in reported:
             yield Drift(
                 now.name, subject, f'{fact} is not known any more: {each.reason}', each.source
             )
     for subject, fact in old:
-        if (subject, fact) not in new and subject not in told:
+        if (subject, fact) not in new and subject not in reported:
             yield Drift(now.name, subject, f'{fact} is known now')
 
 
 def _was_is(fact: str, before: object, now: object) -> str:
-    return f'{fact} was {_told(before)}, is {_told(now)}'
+    return f'{fact} was {_shown(before)}, is {_shown(now)}'
 
 
-def _told(value: object) -> str:
+def _shown(value: object) -> str:
     """Words for a fact, without places."""
     if isinstance(value, Access):
         return _access(value)
     if isinstance(value, Blocking):
-        on = f' on {_told(value.on)}' if value.on is not None else ''
-        return value.call + on + (f' for {_told(value.seconds)} s' if value.seconds else '')
+        on = f' on {_shown(value.on)}' if value.on is not None else ''
+        return value.call + on + (f' for {_shown(value.seconds)} s' if value.seconds else '')
     if isinstance(value, Act):
-        return _told(value.name)
+        return _shown(value.name)
     if isinstance(value, Unknown):
         return f'unknown ({value.reason})'
     if isinstance(value, Enum):
         return str(value.value)
     if isinstance(value, tuple):
-        return ', '.join(map(_told, value)) or 'none'
+        return ', '.join(map(_shown, value)) or 'none'
     if isinstance(value, bool):
         return 'yes' if value else 'no'
     return 'none' if value is None else f'{value}'

@@ -208,13 +208,13 @@ def _is_made_again(unit: Spec, node: str) -> bool:
 
 
 def _functions(unit: Spec, node: str) -> set[str]:
-    """Give class and function of what somebody wrote; the module depends on how it is started."""
+    """Return class and function of user code; the module depends on how it is started."""
     callbacks = (c for c in unit.callbacks if not c.builtin and c.node in (node, None))
     return {'.'.join(c.function.split('.')[-2:]) for c in callbacks if c.function}
 
 
 def _lines(unit: Spec) -> set[tuple[str, int]]:
-    """Give where a unit makes what somebody wrote, whatever folder its files are named from."""
+    """Return the lines of the user where a unit makes entities; files by name, without folders."""
     places = {c.source for c in unit.callbacks if not c.builtin} | {unit.executor.source}
     return {(place.file.rpartition('/')[2], place.line) for place in places if place}
 
@@ -324,9 +324,9 @@ def _is_default(executor: Executor) -> bool:
 
 
 def _diff_facts(unit: str, mine: Callback, theirs: Callback) -> Iterator[Difference]:
-    # A live run does not tell whose answer a done-callback has.
-    is_untold = mine.entity is EntityKind.DONE_CALLBACK and theirs.key is None
-    key = mine.key if is_untold else theirs.key
+    # A live run does not show whose answer a done-callback has.
+    is_unreported = mine.entity is EntityKind.DONE_CALLBACK and theirs.key is None
+    key = mine.key if is_unreported else theirs.key
     for fact, a, b in (
         (mine.entity.key_name if mine.entity else None, mine.key, key),
         ('period_s', mine.period_s, theirs.period_s),
@@ -354,7 +354,7 @@ def _plain(fact: object) -> object:
 
 
 def _diff_groups(left: Spec, right: Spec, pairs: Sequence[Pair]) -> Iterator[Difference]:
-    """Compare groups by what they are and by who shares one; their names do not matter."""
+    """Compare groups by type and by which callbacks share one; their names do not matter."""
     partner: dict[str, str] = {}
     owner: dict[str, str] = {}
     for mine, theirs in pairs:
@@ -411,7 +411,7 @@ def _may_be_missing(callback: Callback) -> bool:
 
 
 def _missing_unit(unit: Spec, kind: Kind) -> Difference:
-    """A class that nobody in sight makes or spins proves nothing by not being there."""
+    """Whether no known code makes or spins a class: then its absence proves nothing."""
     written = [callback for callback in unit.callbacks if not callback.builtin]
     is_left = kind is Kind.ONLY_LEFT
     nodes = ', '.join(unit.nodes)

@@ -32,7 +32,7 @@ def match_nodes(left: System, right: System) -> NodeMatching:
     """
     Pair nodes by ever weaker identities: full name, own name, what they have.
 
-    A name that the launch file gives to a process whose code is not in sight counts.
+    A name that the launch file gives to a process whose code is not available counts.
     """
     rest_left, rest_right = list(placed(left)), list(placed(right))
     pairs: list[tuple[Placed, Placed]] = []
@@ -52,7 +52,7 @@ def match_nodes(left: System, right: System) -> NodeMatching:
 
 
 def placed(system: System) -> Iterator[Placed]:
-    """Every node; of a process whose code is not in sight, the one that the launch file names."""
+    """Every node; of a process whose code is not available, the one that the launch file names."""
     for process in system.processes:
         if process.nodes:
             yield from (Placed(process, node) for node in process.nodes)

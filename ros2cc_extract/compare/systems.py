@@ -133,8 +133,8 @@ def _differs(
         unit=node,
         subject=subject,
         fact=fact,
-        left=_told(mine.name),
-        right=_told(theirs.name),
+        left=_shown(mine.name),
+        right=_shown(theirs.name),
         left_place=_place_of_name(mine),
         right_place=theirs.source,
         marked=is_open,
@@ -147,14 +147,14 @@ def _place_of_name(side: SystemNode | SystemEndpoint) -> Place | None:
     return (rule.source if rule is not None else None) or side.source
 
 
-def _told(name: str | Unknown) -> str:
+def _shown(name: str | Unknown) -> str:
     return NOT_KNOWN if isinstance(name, Unknown) else name
 
 
 def _missing_end(node: str, end: SystemEndpoint, kind: Kind, other: SystemNode) -> Difference:
     """Of what is known of ``other`` it is missing; marked where not all of that is known."""
     is_left = kind is Kind.ONLY_LEFT
-    told = end.type or end.kind.value
+    entry = end.type or end.kind.value
     is_open = other.open is not None or any(
         isinstance(each.name, Unknown) and each.kind is end.kind for each in other.endpoints
     )
@@ -163,8 +163,8 @@ def _missing_end(node: str, end: SystemEndpoint, kind: Kind, other: SystemNode) 
         unit=node,
         subject=shown_end(end),
         fact=end.kind.what,
-        left=told if is_left else '',
-        right='' if is_left else told,
+        left=entry if is_left else '',
+        right='' if is_left else entry,
         left_place=end.source if is_left else None,
         right_place=None if is_left else end.source,
         marked=is_open or end.conditional or end.assumed is not None,
@@ -173,15 +173,15 @@ def _missing_end(node: str, end: SystemEndpoint, kind: Kind, other: SystemNode) 
 
 def _missing_node(each: Placed, kind: Kind, other: System) -> Difference:
     is_left = kind is Kind.ONLY_LEFT
-    told = f'process {each.process.name}'
+    entry = f'process {each.process.name}'
     place = each.node.source or each.process.launched.source
     return Difference(
         kind=kind,
         unit=shown(each.node),
         subject=shown(each.node),
         fact='node',
-        left=told if is_left else '',
-        right='' if is_left else told,
+        left=entry if is_left else '',
+        right='' if is_left else entry,
         left_place=place if is_left else None,
         right_place=None if is_left else place,
         marked=_may_be_missing(each.process)
@@ -200,12 +200,12 @@ def _may_be_missing(process: Process) -> bool:
 
 
 def _may_have_more(process: Process) -> bool:
-    """Whether a process may hold nodes that nobody has seen."""
+    """Whether a process may hold nodes that were not seen."""
     return process.outside is not None and not process.nodes and process.launched.name is None
 
 
 def _unseen(left: System, matching: NodeMatching) -> Iterator[Process]:
-    """Processes of which not even the name of a node is known."""
+    """Processes without a known node name."""
     seen = {id(each.process) for pair in matching.pairs for each in pair[:1]}
     seen |= {id(each.process) for each in matching.only_left}
     yield from (each for each in left.processes if id(each) not in seen and not each.nodes)
@@ -218,7 +218,7 @@ def _nameless(process: Process, other: System) -> Difference:
         unit=process.name,
         subject=process.name,
         fact='process',
-        left=f'outside: {why.reason}' if why is not None else 'no node is in sight',
+        left=f'outside: {why.reason}' if why is not None else 'no node is found',
         left_place=process.launched.source,
         marked=True,
     )

@@ -14,7 +14,7 @@ from ros2cc_extract.confirm.schedules import Schedule
 from ros2cc_extract.light_dataclasses import dataclass
 
 LIMIT_S = 30.0
-# Who was held before a write that often, and nobody else wrote, is given up.
+# Give up when a thread was held before a write this often, and no other one wrote.
 MOST_TRIES = 8
 _OF_IMPORTS = ('ModuleNotFoundError', 'ImportError')
 _READ_EVERY_S = 0.1

@@ -1,4 +1,4 @@
-"""Nothing is started before somebody has said that it may be."""
+"""Start nothing before the user has agreed."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def ask_to_start(entry: str, python: str, stderr: TextIO, *, yes: bool) -> None:
     """
     Ask before a program is started for the first time; the answer is kept for this file.
 
-    :raises InputError: when the answer is no, or there is nobody to ask.
+    :raises InputError: when the answer is no, or no user can be asked.
     """
     path = Path(entry).resolve()
     _ask(str(path), f'{path} with {python}', entry, stderr, yes=yes)

@@ -63,7 +63,7 @@ def _place_of_use(schedule: Schedule, row: Row) -> str | None:
     frames = row['frames']
     of_file = [i for i, each in enumerate(frames) if each[0] == schedule.points[0].file]
     of_spin = [i for i, each in enumerate(frames) if str(each[0]).endswith(_EXECUTORS)]
-    # Who is called by whom: the program by the spin, or the other way round.
+    # Which calls which: the spin calls the program, or the other way round.
     by_spin = max(of_spin, default=-1) > max(of_file, default=-1)
     if schedule.code == _WHILE_SPUN:
         return 'the spin' if by_spin else None

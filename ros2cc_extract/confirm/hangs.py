@@ -120,7 +120,7 @@ def _loop(activity: Activity, schedule: Schedule) -> Activity | None:
 
 
 def kept_lock(schedule: Schedule, seen: Observations) -> Judgement | None:
-    """The callback is over, and another one waits for a lock that nobody is left to give back."""
+    """The callback is over, and another one waits for a lock that nothing is left to give back."""
     both = pair(seen)
     if schedule.code != 'CC112' or not seen.passed.get(0) or both is None:
         return None
@@ -148,7 +148,7 @@ def crossed_locks(schedule: Schedule, seen: Observations) -> Judgement | None:
     """
     A thread stands at each of the two places, and nothing else runs.
 
-    Of a ``with`` for two locks the interpreter does not tell which one is waited for.
+    For a ``with`` of two locks the interpreter does not say which one is waited for.
     """
     both = pair(seen)
     if schedule.code != 'CC111' or len(schedule.points) < 2 or both is None:

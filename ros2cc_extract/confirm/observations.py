@@ -35,7 +35,7 @@ def sample_of(process: int, row: Row) -> Sample:
     """
     Read two looks and judge them.
 
-    :raises ValueError, KeyError, TypeError, AttributeError: where they are none.
+    :raises ValueError, KeyError, TypeError, AttributeError: if they are invalid.
     """
     before, after = map(look_of, row['looks'])
     found = explain(process, (before, after))
@@ -74,7 +74,7 @@ class Observations:
     :param raced: what was read, what another thread wrote then, and what was written over it.
     :param handed: functions of the program that stand-ins for missing modules were given.
     :param asleep: at each look, loops of asyncio that slept although something was ready.
-    :param alone: how often nobody else wrote in time.
+    :param alone: how often no other thread wrote in time.
     :param times: how long each passing of the first point took, in seconds.
     :param given_up: points that were not reached in time, once everything was let go.
     :param steps: the last rows, as they came, but for the looks.
@@ -105,7 +105,7 @@ class Observations:
         """Read what is new; whether there was any."""
         rows = self._rows.read(report)
         for row in rows:
-            # Somebody else may have written there.
+            # Another process may have written there.
             with contextlib.suppress(ValueError, KeyError, TypeError, AttributeError):
                 self._note(row)
                 if row['what'] != 'looks':

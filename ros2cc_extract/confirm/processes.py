@@ -65,9 +65,9 @@ class Node:
 
 def release_of(python: str) -> str | None:
     """
-    Give the version of rclpy that an interpreter has, `None` where it does not tell.
+    Return the version of rclpy that an interpreter has, `None` if it does not say.
 
-    :raises ToolNotFoundError: when it has none, or is none.
+    :raises ToolNotFoundError: if it has no rclpy, or is no interpreter.
     """
     mend = 'source the workspace of ROS, or name an interpreter with --python'
     try:
@@ -193,7 +193,7 @@ def _running(
     try:
         yield process
     finally:
-        # Its session is its own: whatever it has started ends with it.
+        # Its session is its own: all that it has started ends with it.
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
         process.wait()
@@ -228,7 +228,7 @@ def _held(path: Path) -> Iterator[bool]:
         yield False
         return
     try:
-        # Who held it before may have removed it meanwhile, and the next one has another.
+        # Its last holder may have removed it meanwhile, and the next one has another.
         is_ours = _is_locked(descriptor) and _is_at(descriptor, path)
         try:
             yield is_ours

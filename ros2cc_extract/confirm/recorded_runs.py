@@ -49,11 +49,11 @@ def _without_repetitions(
 
 
 def _words(schedule: Schedule, row: Row) -> str | None:
-    tell = _WORDS.get(str(row['what']))
+    report = _WORDS.get(str(row['what']))
     try:
-        return tell(schedule, row) if tell else None
+        return report(schedule, row) if report else None
     except (KeyError, IndexError, TypeError):
-        return None  # somebody else has written there
+        return None  # another process has written there
 
 
 def _numbers(threads: Iterator[Any]) -> dict[int, int]:

@@ -39,7 +39,7 @@ CONFIRMABLE = frozenset(
 """Rules whose findings can be shown on a running node."""
 CLEARED = 'CC305'
 RACES = frozenset({'CC301', 'CC302', 'CC303', 'CC304', CLEARED})
-# What whoever destroys something waits for, see ``steering/destroys.py``.
+# What the code that destroys something waits for, see ``steering/destroys.py``.
 _DESTROYS = {'CC116': 'call', 'CC117': 'spin'}
 _LAST_LINE = 10**6
 _TOGETHER = 3
@@ -106,7 +106,7 @@ class Schedule:
     :param defaults: every other message holds its defaults.
     :param filled: the others hold values; if not, all hold their defaults.
     :param at_once: how many requests of one service are on their way at a time.
-    :param destroys: what whoever destroys an entity at the first point waits for.
+    :param destroys: what the destroyer of an entity at the first point waits for.
     :param times_out_s: the finding says that the wait always takes so long, in vain.
     """
 
@@ -287,7 +287,7 @@ def read_schedule(path: Path) -> Schedule:
     """
     Read a schedule that was kept.
 
-    :raises InputError: where the file is none.
+    :raises InputError: if the file is not a schedule.
     """
     try:
         row = read_json(read_regular(path, _MOST_BYTES))

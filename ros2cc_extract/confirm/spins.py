@@ -16,7 +16,7 @@ _EXCEPTIONS = {
     'CC113': ('TypeError',),
     'CC114': ('RuntimeError',),
 }
-# A response that is none, as a coroutine: without a word (``service.py``).
+# No valid response, such as a coroutine: the error has no message (``service.py``).
 _RAISED_BY = {'CC113': 'send_response'}
 _WORDS = {'CC107': ('generator already executing', 'already spinning'), 'CC113': ('coroutine',)}
 
@@ -103,7 +103,7 @@ def asleep_beside(schedule: Schedule, seen: Observations) -> Judgement | None:
 
 
 def _due(look: Look) -> set[int]:
-    """Timers of the program that nobody holds back, and that run on the clock of the machine."""
+    """Timers of the program that are not held back, and that run on the clock of the machine."""
     return {
         number
         for number, each in look.entities.items()
@@ -139,7 +139,7 @@ def _at_first_point(schedule: Schedule, sample: Sample) -> Iterator[tuple[Activi
 
 
 def _others_in_group(look: Look, activity: Activity) -> set[int]:
-    """What somebody has written into the groups that a callback keeps closed."""
+    """User entities in the groups that a callback keeps closed."""
     own = {look.entities[each].group for each in activity.entities if each in look.entities}
     return {
         number

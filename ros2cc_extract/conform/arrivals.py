@@ -1,8 +1,8 @@
 """
 Puts what arrived among the observations of an events executor, which serves it in this order.
 
-The executor is told of arrivals by the middleware, in C++; no trace has them. Who feeds a
-program knows when he did.
+The middleware reports arrivals to the executor in C++; no trace has them. The code that feeds a
+program knows when it did so.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Arrival:
 
     :param callback: its name in the specification.
     :param thread: number of the thread that did; what it hands over arrives in this order.
-    :param latest_ns: when it had arrived; ``None`` when only its being served tells that it had.
+    :param latest_ns: when it had arrived; ``None`` if only its being served shows that it had.
     """
 
     callback: str
@@ -47,28 +47,28 @@ def with_arrivals(
     """
     begins = [each for each in seen if each.act is Act.BEGIN]
     places = {callback.name: place for place, callback in enumerate(spec.callbacks)}
-    told = list(_told(arrivals, places, begins))
-    known = {each.callback for each in told}
-    served = list(_paired(told, begins))
+    reported = list(_reported(arrivals, places, begins))
+    known = {each.callback for each in reported}
+    served = list(_paired(reported, begins))
     hidden = (
         _hidden(begin, served[number:])
         for number, begin in enumerate(begins)
         if begin.callback not in known
     )
     rows = [replace(each, has_arrived=each.act is Act.BEGIN) for each in seen]
-    return tuple(sorted((*hidden, *told, *rows), key=_clock))
+    return tuple(sorted((*hidden, *reported, *rows), key=_clock))
 
 
 _clock = attrgetter('clock_ns')
 
 
-def _told(
+def _reported(
     arrivals: Sequence[Arrival], places: Mapping[str, int], begins: Sequence[Observation]
 ) -> Iterator[Observation]:
     """
     Give what arrived as observations, in the order of their being handed over.
 
-    Where only being served tells of it, what is last and was never served is left out.
+    Where only being served shows it, arrivals at the end that were never served are left out.
     """
     clocks = _queues((begin.callback, begin.clock_ns) for begin in begins)
     latest: dict[int, int] = defaultdict(int)
@@ -91,10 +91,10 @@ def _told(
 
 
 def _paired(
-    told: Sequence[Observation], begins: Sequence[Observation]
+    reported: Sequence[Observation], begins: Sequence[Observation]
 ) -> Iterator[Observation | None]:
-    """For each begin its arrival, if that was told: the first is served first. Then the rest."""
-    left = _queues((each.callback, each) for each in told)
+    """Pair each begin with its arrival, if reported: the first is served first. Then the rest."""
+    left = _queues((each.callback, each) for each in reported)
     for begin in begins:
         yield left[begin.callback].popleft() if left[begin.callback] else None
     for never_served in left.values():

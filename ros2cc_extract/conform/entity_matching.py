@@ -35,7 +35,7 @@ def with_copies(trace: Trace, executor: int, spec: Spec) -> tuple[Spec, frozense
     """
     Give ``spec`` as many callbacks of one line as the trace shows, in groups as it shows them.
 
-    :return: the unit, and the names of those callbacks of which there are several now.
+    :return: the unit, and the names of those callbacks that now exist several times.
     """
     matched = _match(trace, executor, spec)
     copies = _Copies(trace, spec, matched.places)
@@ -65,7 +65,7 @@ def _match(trace: Trace, executor: int, spec: Spec) -> _Matched:
             continue
         fitting = [p for p, c in enumerate(spec.callbacks) if _is_same(subject, c)]
         free = [p for p in fitting if _is_free(subject, there[p], spans)]
-        # Nobody first; else whoever is over, as a timer that is made anew for each shot.
+        # A free place first; else one that is over, as of a timer that is made anew for each shot.
         place = min(free, key=lambda p: bool(there[p]), default=None)
         if place is not None:
             there[place].append(subject)
@@ -93,7 +93,7 @@ def _spans(trace: Trace) -> Mapping[int, Span]:
 
 
 def _is_free(subject: Subject, there: list[Subject], spans: Mapping[int, Span]) -> bool:
-    """Whether it may be the same callback as others: all tasks of a function, and who is over."""
+    """Whether it may be the same callback as others: a task, or one when all others are over."""
     return subject.kind in _TASK_KINDS or all(
         one.group == subject.group and _are_apart(spans.get(one.number), spans.get(subject.number))
         for one in there
@@ -191,14 +191,14 @@ class _Copies:
         rows = [(self._numbers.get(p), c) for p, c in enumerate(self._spec.callbacks)]
         for copy in self._copies:
             before = (at for at, (number, _) in enumerate(rows) if number and number < copy.number)
-            rows.insert(max(before, default=copy.place) + 1, (copy.number, self._told(copy)))
+            rows.insert(max(before, default=copy.place) + 1, (copy.number, self._relinked(copy)))
         return replace(
             self._spec,
             callbacks=tuple(replace(callback, count=1) for _, callback in rows),
             groups=tuple(self._groups.values()),
         )
 
-    def _told(self, copy: _Copy) -> Callback:
+    def _relinked(self, copy: _Copy) -> Callback:
         """What a copy waits for is what the same lap has made, where that was copied too."""
         names = {
             self._spec.callbacks[other.place].name: other.callback.name

@@ -2,7 +2,7 @@
 The model of a unit as something whose steps can be observed.
 
 The network that the generator's text describes is the only semantics here. This module names
-its edges: by template, locations and the event that they are, it tells which of them an
+its edges: by template, locations and the event that they are, it finds which of them an
 observer of the executor sees, and for which callback.
 """
 
@@ -53,7 +53,7 @@ class Label:
     What is seen of a step.
 
     :param act: ``None`` when nothing is seen.
-    :param callback: its place; ``None`` where the state tells (see ``process``).
+    :param callback: its place; ``None`` where the state has it (see ``process``).
     :param process: number of the process that takes the step.
     """
 
@@ -80,7 +80,7 @@ class ObservedModel:
     """
     Steps of one model, from packed state to packed state.
 
-    :param unseen_collects: places of callbacks of which no trace says that they were collected.
+    :param unseen_collects: places of callbacks whose collection no trace shows.
     """
 
     def __init__(self, model: Model, callbacks: int, unseen_collects: frozenset[int]) -> None:
@@ -144,7 +144,7 @@ class ObservedModel:
         return _read(packed, self._waiting[callback]) > 0
 
     def collects_unseen(self, packed: int, callback: int) -> bool:
-        """Whether nothing tells that it was collected: coroutines are asked again and again."""
+        """Whether nothing shows that it was collected: coroutines are asked again and again."""
         if callback in self._unseen_collects:
             return True
         field = self._fields.get(f'cb_suspended[{callback}]')

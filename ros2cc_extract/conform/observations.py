@@ -11,15 +11,15 @@ from ros2cc_extract.conform.trace import Event, Subject, Trace
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.model import EntityKind, GroupType, Spec
 
-#: Who collects looks at the group just before it is told; so long after its last step, the thread
+#: A collecting thread looks at the group just before it reports; this long after its last step, it
 #: may have slept in between (89 ms were seen on a machine with eight times its load).
 ASLEEP_NS = 20_000_000
-#: So long before its end a trace tells of all that was made.
-UNTOLD_NS = 200_000_000
+#: Until this time before its end a trace reports all that was made.
+UNREPORTED_NS = 200_000_000
 
 
 class Act(Enum):
-    """A step of an executor that can be seen from outside; the value is how it is told."""
+    """A step of an executor that can be seen from outside; the value is its wording."""
 
     WAKE = 'wakes up'
     COLLECT = 'collects'
@@ -113,10 +113,10 @@ def _observations(trace: Trace, executor: int, places: Mapping[int, int]) -> Ite
 
 def _is_late(act: Act, subject: Subject, silence_ns: int) -> bool:
     """
-    Tell whether a step may have happened at any time since the one before it in its thread.
+    Return whether a step may have happened at any time since the one before it in its thread.
 
-    What is made is told afterwards, and may have been served by then. So is an answer: it wakes
-    who awaits it before the client's own handler ends.
+    What is made is reported afterwards, and may have been served by then. So is an answer: it
+    wakes the code that awaits it before the client's own handler ends.
     """
     is_answer = act is Act.END and subject.kind == EntityKind.CLIENT.value
     is_asleep = act is Act.COLLECT and silence_ns >= ASLEEP_NS
@@ -174,11 +174,11 @@ def _with_takes(rows: Iterator[Observation]) -> Iterator[Observation]:
     yield from kept
 
 
-def with_untold_tasks(seen: Sequence[Observation], spec: Spec) -> tuple[Observation, ...]:
+def with_unreported_tasks(seen: Sequence[Observation], spec: Spec) -> tuple[Observation, ...]:
     """
-    Add tasks that have run and of which the trace ends before it tells that they were made.
+    Add tasks that have run, if the trace ends before it reports that they were made.
 
-    Their maker tells it afterwards. What is no coroutine has begun once for each time.
+    Their maker reports it afterwards. What is no coroutine has begun once for each time.
     """
     if not seen:
         return ()
@@ -190,7 +190,7 @@ def with_untold_tasks(seen: Sequence[Observation], spec: Spec) -> tuple[Observat
             callback=place,
             thread=-1,
             clock_ns=end_ns,
-            earliest_ns=end_ns - UNTOLD_NS,
+            earliest_ns=end_ns - UNREPORTED_NS,
             is_task=True,
         )
         for place, callback in enumerate(spec.callbacks)
@@ -202,9 +202,9 @@ def with_untold_tasks(seen: Sequence[Observation], spec: Spec) -> tuple[Observat
 
 def with_groups(seen: Sequence[Observation], spec: Spec) -> tuple[Observation, ...]:
     """
-    Say whose exclusive group a begin closes and an end opens.
+    Name the exclusive groups that a begin closes and an end opens.
 
-    The hook reads the clock after a group let somebody begin, and before it is told of an end
+    The hook reads the clock after a group let a callback begin, and before it learns of an end
     (``extract/live/hook/groups.py``): by the clock these never overlap where the group is kept.
     """
     exclusive = {group.name for group in spec.groups if group.type is GroupType.EXCLUSIVE}

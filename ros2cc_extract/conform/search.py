@@ -1,7 +1,7 @@
 """
 Decides whether a sequence of observations is a path of a model.
 
-The model takes steps that nobody sees; and observations of different threads may stand in the
+The model takes steps that are not observed; and observations of different threads may stand in the
 trace in another order than they happened. So paths are searched, depth first, in the order of
 the clock as long as that will do; begins and ends in one exclusive group never stand in another
 order. What arrives is only made to arrive when it is collected:
@@ -141,7 +141,7 @@ class _Search:
             return []
         heads.sort(key=lambda head: head[1].clock_ns)
         first = heads[0][1].clock_ns
-        # What has arrived is there, whatever else threads tell late.
+        # What has arrived is there, even if threads report other steps late.
         arrived = min((each.clock_ns for _, each in heads if _has_arrived(each)), default=inf)
         return [
             head
@@ -190,7 +190,7 @@ class _Search:
 
 
 def _reordered_ns(path: Sequence[Observation]) -> int:
-    """How long after others a step was told that a path has before them."""
+    """How long after others a step was reported that a path has before them."""
     most, first_ns = 0, path[-1].clock_ns if path else 0
     for each in reversed(path):
         most = max(most, each.earliest_ns - first_ns)
@@ -210,7 +210,7 @@ def follow(model: ObservedModel, packed: int, observation: Observation) -> Itera
         wanted = frozenset({observation.callback})
     states: Iterable[int] = unseen(model, packed, wanted)
     if observation.act is Act.WAKE and model.has_tasks:
-        # Who spins hands over all tasks before it waits; the model would do with one of a kind.
+        # A spin hands over all tasks before it waits; the model would do with one of a kind.
         states = sorted(states, key=model.unserved_tasks)
     for state in states:
         if observation.act is Act.WAKE and not _are_waiting(model, state, observation.found):
@@ -250,7 +250,7 @@ def _sooner_or_later(model: ObservedModel, packed: int, wanted: frozenset[int]) 
 
 def _arrivals(model: ObservedModel, packed: int, wanted: frozenset[int]) -> list[int]:
     """
-    Let arrive what is wanted and can; arrivals disturb nobody, so in any order.
+    Let arrive what is wanted and can; arrivals do not interact, so in any order.
 
     Where something can arrive that was sent as well as something else, what was sent is first.
     """

@@ -17,7 +17,7 @@ from ros2cc_extract.conform.observations import (
     Observation,
     observe,
     with_groups,
-    with_untold_tasks,
+    with_unreported_tasks,
 )
 from ros2cc_extract.conform.search import PASSED, STATES, Answer, conform
 from ros2cc_extract.conform.trace import Trace
@@ -45,7 +45,7 @@ class Comparison:
 
     :param unit: with those of rclpy's own entities that ran.
     :param lacking: names of what the executor ran and the specification lacks.
-    :param gaps: what else the specification does not tell, as far as the trace shows.
+    :param gaps: what else the specification lacks, as far as the trace shows.
     """
 
     unit: ClosedSpec
@@ -57,7 +57,7 @@ class Comparison:
 
     @property
     def is_gap(self) -> bool:
-        """Whether it is the specification that does not tell enough."""
+        """Whether the specification does not say enough."""
         return bool(self.lacking or self.gaps)
 
 
@@ -87,8 +87,8 @@ def compare(
 
     :param until_ns: leave out what happened later.
     :param edit: changes the text of the model before it is read.
-    :param arrivals: all that arrived for some of the callbacks of an events executor, of which
-        a trace does not tell: it serves them in this order.
+    :param arrivals: all that arrived for some of the callbacks of an events executor, which
+        a trace does not show: it serves them in this order.
     """
     ran = {event.subject for event in trace.events if event.name in _RUNS}
     whole, several = with_copies(trace, executor, spec)
@@ -100,7 +100,7 @@ def compare(
     if until_ns is not None:
         seen = tuple(each for each in seen if _is_before(each, until_ns))
     else:
-        seen = with_untold_tasks(seen, unit.spec)
+        seen = with_unreported_tasks(seen, unit.spec)
     text = edit(text_of(unit, seen))
     model = ObservedModel(
         read_model(text, f'{unit.spec.name}.xml'),
@@ -119,7 +119,7 @@ def compare(
 
 
 def _is_before(observation: Observation, until_ns: int) -> bool:
-    """What is made is told afterwards; it may have run by then."""
+    """Whether it was made by then: that is reported afterwards, so it may have run already."""
     is_made = observation.act is Act.ARRIVE
     return (observation.earliest_ns if is_made else observation.clock_ns) < until_ns
 
@@ -200,5 +200,5 @@ def _most_on_a_thread(seen: Sequence[Observation]) -> int:
 
 
 def _tasks(unit: ClosedSpec) -> frozenset[int]:
-    """No trace says reliably when they were handed over: it may be before they were told."""
+    """No trace says reliably when they were handed over: it may be before they were reported."""
     return frozenset(p for p, c in enumerate(unit.spec.callbacks) if c.entity in TASKS)

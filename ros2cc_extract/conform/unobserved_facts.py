@@ -1,5 +1,5 @@
 """
-What a specification does not tell of an execution that is none of its paths.
+What a specification does not say about an execution that is not one of its paths.
 
 A live run does not see what a coroutine awaits, nor that a callback spins; source may not know a
 group. Then it is not the model that is wrong: nothing is decided.
@@ -25,7 +25,7 @@ _OPENS, _CLOSES = ('begin', 'resume', 'run'), ('end', 'suspend', 'pause')
 
 class Gap(NamedTuple):
     """
-    Something that the specification does not tell.
+    Something that the specification does not say.
 
     :param name: of the callback, group or executor.
     :param mend: what to do about it.
@@ -51,7 +51,7 @@ def gaps(
     List what is missing.
 
     :param places: of the callbacks, by the numbers of their subjects.
-    :param several: names of callbacks of which one line has made several.
+    :param several: names of callbacks that one line has made several times.
     """
     ran = {each.callback for each in seen}
     callbacks = [callback for place, callback in enumerate(spec.callbacks) if place in ran]
@@ -78,8 +78,8 @@ def _awaiting(seen: Sequence[Observation], spec: Spec) -> Iterator[str]:
     times = Counter((each.callback, each.act) for each in seen if each.is_task)
     for place, callback in enumerate(spec.callbacks):
         went_on = times[place, Act.BEGIN] > times[place, Act.ARRIVE] > 0
-        is_told = any(wait.frees_thread for wait in waits_of(callback, spec))
-        if (place in paused or went_on) and not is_told:
+        is_reported = any(wait.frees_thread for wait in waits_of(callback, spec))
+        if (place in paused or went_on) and not is_reported:
             yield callback.name
 
 

@@ -1,4 +1,4 @@
-"""Tells observations and states of the model in words: callbacks by name, file and line."""
+"""Put observations and states of the model into words: callbacks by name, file and line."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ class Dependence:
                 self.locks
             ):
                 return True
-            # Where a lock is given back is no step: who waits for it goes on then.
+            # Releasing a lock is no step: the thread that waits for it goes on then.
             return (kind, name) == (other_kind, other_name)
         return name == other_name and 'write' in (kind, other_kind)
 
@@ -86,10 +86,10 @@ def _does(at: str) -> tuple[str, str]:
 @dataclass
 class _Branch:
     """
-    A moment at which somebody was chosen.
+    A moment at which a thread was chosen.
 
-    :param enabled: who might have been.
-    :param sleeping: who need not be.
+    :param enabled: those that could be chosen.
+    :param sleeping: those that need not be chosen.
     """
 
     enabled: tuple[Step, ...]

@@ -79,7 +79,7 @@ def schedule_row(strategy: Strategy, seed: int, number: int, steps: int) -> dict
     Of the mixed strategy random priorities and a random walk take turns; of random priorities and
     few preemptions the depths 2, 3 and 4 do.
 
-    :param steps: among so many it is chosen where somebody falls, or another one goes on.
+    :param steps: among so many it is chosen where a thread falls, or another one goes on.
     """
     depth = 2 + number // 2 % 3
     if strategy is Strategy.MIXED:
@@ -197,7 +197,7 @@ def founds_of(seen: Seen) -> Iterator[Found]:
 
 
 def _begin_of_tail(seen: Seen, end: int, kind: Kind) -> int:
-    """The last moment before at which nobody was at work."""
+    """The last moment before at which no thread was at work."""
     quiet = [0, *(each for each in seen.rounds if 0 < each < end)]
-    # An exception is told when its callback is over, and somebody else may have begun since.
+    # An exception is reported when its callback is over, and another may have begun since.
     return quiet[-2] if kind is Kind.EXCEPTION and len(quiet) > 1 else quiet[-1]

@@ -27,8 +27,8 @@ _OF_TOOL = f'{Path(__file__).resolve().parents[1]}{os.sep}'
 _ENDS = frozenset(
     {'KeyboardInterrupt', 'SystemExit', 'ExternalShutdownException', 'GeneratorExit'}
 )
-# Time is no wait; and whether somebody outside answers is not for the program to decide.
-_UNTOLD = (Wait.NOTHING, Wait.SLEEP, Wait.WORK, Wait.ANSWER, Wait.ACTION, Wait.SERVER)
+# Time is no wait; and whether a node outside answers is not for the program to decide.
+_UNREPORTED = (Wait.NOTHING, Wait.SLEEP, Wait.WORK, Wait.ANSWER, Wait.ACTION, Wait.SERVER)
 
 
 class Kind(Enum):
@@ -81,20 +81,20 @@ def hang(samples: Sequence[Sample]) -> Failure | None:
 
 def _hang(before: Explanation, after: Explanation, seconds: float) -> Failure | None:
     stuck = stand_in_both(before, after, lambda each: not each.can_end and not each.moved)
-    told = as_text((after,))
+    page = as_text((after,))
     if stuck:
         first = min(stuck, key=lambda each: (not each.in_callback, each.activity.place.at_line))
         words = f'{_who(first)} {does(first, after.look)}, and nothing is left that could end it'
-        return _at(first, Kind.HANG, words, told)
+        return _at(first, Kind.HANG, words, page)
     crossed = _at_locks(before, after)
     if crossed:
         lines = ' and '.join(str(each.activity.place.line) for each in crossed)
         words = f'every callback at work waits for a lock, at lines {lines}, for {seconds:.0f} s'
-        return _at(crossed[0], Kind.HANG, words, told)
+        return _at(crossed[0], Kind.HANG, words, page)
     for verdict in (Verdict.NEVER_SPUN, Verdict.ASLEEP):
         if before.verdict is after.verdict is verdict and after.standings:
             asleep = [each for each in after.standings if each.asleep] or list(after.standings)
-            return _at(asleep[0], Kind.HANG, MEANS[verdict], told)
+            return _at(asleep[0], Kind.HANG, MEANS[verdict], page)
     return None
 
 
@@ -119,8 +119,8 @@ def stands(samples: Sequence[Sample]) -> Failure | None:
     first, last = samples[0], samples[-1]
 
     def is_meant(each: Standing) -> bool:
-        told = each.wait.kind not in _UNTOLD and not each.wait.timed
-        return each.in_callback and told and not each.moved
+        is_counted = each.wait.kind not in _UNREPORTED and not each.wait.timed
+        return each.in_callback and is_counted and not each.moved
 
     for each in stand_in_both(first.explanation, last.explanation, is_meant):
         seconds = last.at - first.at
@@ -142,7 +142,7 @@ def _at(standing: Standing, kind: Kind, words: str, evidence: str) -> Failure:
 
 
 def exception(row: Row) -> Failure | None:
-    """What a row `failed` tells, where the program had a part in it."""
+    """Return the failure of a row `failed`, if the program had a part in it."""
     name, frames = str(row['type']), [(str(f[0]), int(f[1]), str(f[2])) for f in row['frames']]
     own = [f for f in frames if not (_OF_LIBRARIES.search(f[0]) or f[0].startswith(_OF_TOOL))]
     if name in _ENDS or not own:
@@ -161,7 +161,7 @@ def exception(row: Row) -> Failure | None:
 
 
 def lost_update(row: Row) -> Failure:
-    """What a row `lost` tells."""
+    """Return the failure of a row `lost`."""
     name = str(row['name']).rpartition('.')[2]
     words = (
         f'{name} was {row["read"]} when line {row["read_line"]} had read it, another thread set '

@@ -78,7 +78,7 @@ class InProcess:
 
     @property
     def choices(self) -> list[tuple[str, str]]:
-        """Who was chosen, and where it stood."""
+        """The chosen threads, and where each stood."""
         return list(self._control.choices)
 
     @property
@@ -106,13 +106,13 @@ class InProcess:
         """
         Take control, as the schedule says.
 
-        :raises KeyError, ValueError, TypeError: where the row is none.
+        :raises KeyError, ValueError, TypeError: if the row is invalid.
         """
         self._conductor.begin(dict(row))
         threading.Thread(target=self._tick, name='ros2cc schedules', daemon=True).start()
 
     def end(self) -> None:
-        """Let everybody go on."""
+        """Let all threads go on."""
         self._is_over.set()
         self._control.let_go()
 
@@ -142,7 +142,7 @@ class InProcess:
 
 
 def _looks() -> list[dict[str, Any]]:
-    """Two looks, without the frames of who runs the test: they are many, and hold nothing."""
+    """Two looks, without the frames of the test runner: they are many, and hold nothing."""
     looks = look_twice()
     for look in looks:
         for thread in look['threads']:

@@ -52,7 +52,7 @@ def replay(found: Found, run: Run) -> Replay:
     """
     Try until the failure is seen again.
 
-    :raises KeyboardInterrupt: where somebody has pressed Ctrl-C.
+    :raises KeyboardInterrupt: if the user has pressed Ctrl-C.
     """
     begun, tries = time.monotonic(), 0
     for number in range(1, PROCESSES + 1):

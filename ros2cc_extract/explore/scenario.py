@@ -26,7 +26,7 @@ Row = Mapping[str, Any]
 @dataclass(frozen=True, kw_only=True)
 class Scenario:
     """
-    :param command: as somebody would type it.
+    :param command: as a user would type it.
     :param known: callbacks that may be ready soon, and are waited for.
     :param everywhere: threads switch at every point, as without the interpreter's global lock.
     :param seconds: how long a schedule lasts at most.
@@ -62,7 +62,7 @@ class Found:
 
     :param schedule: its policy and its seed.
     :param number: which schedule of the exploration it was, from 1 on; 0 the plain one.
-    :param tail: the choices from the last moment on at which nobody was at work.
+    :param tail: the choices from the last moment on at which no thread was at work.
     :param choices: all of the schedule until the failure.
     :param times: in how many schedules it was seen.
     """
@@ -98,7 +98,7 @@ def read_found(path: Path) -> tuple[Scenario, Found]:
     """
     Read a failure that was written.
 
-    :raises InputError: where the file is none.
+    :raises InputError: if the file is not a scenario.
     """
     try:
         row = read_json(read_regular(path, _MOST_BYTES))

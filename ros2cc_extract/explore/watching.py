@@ -22,7 +22,7 @@ from ros2cc_extract.explore.scenario import Scenario, plan_text
 from ros2cc_extract.extract.live.exploring.exploration import VARIABLE
 from ros2cc_extract.light_dataclasses import dataclass
 
-# For an import of large packages, the discovery of DDS, and who offers what is asked for.
+# For an import of large packages, the discovery of DDS, and the offers of what is asked for.
 START_S = 40.0
 # Beyond its own seconds: letting go, and looking at what stands.
 _MORE_S = 12.0
@@ -36,9 +36,9 @@ class Seen:
     """
     What came of one schedule.
 
-    :param choices: who was chosen, and where it stood.
-    :param choosable: among whom.
-    :param rounds: after how many choices nobody was at work.
+    :param choices: the chosen threads, and where each stood.
+    :param choosable: the candidates.
+    :param rounds: after how many choices no thread was at work.
     :param seconds: from its begin to its end.
     """
 
@@ -61,7 +61,7 @@ class Process:
 
     :param schedules: those that were begun.
     :param ended: it ended before its schedules were over.
-    :param interrupted: somebody has pressed Ctrl-C; what was seen until then is here.
+    :param interrupted: the user has pressed Ctrl-C; what was seen until then is here.
     :param files: in which the functions of callbacks stand; empty where that is not known.
     :param labels: names of the callbacks that have begun.
     """
@@ -132,7 +132,7 @@ class _Watch:
                 try:
                     self._note(row)
                 except (ValueError, KeyError, TypeError, AttributeError, IndexError):
-                    continue  # somebody else has written there
+                    continue  # another process has written there
             if not found.started and time.monotonic() - begun > START_S:
                 break
             if ended:

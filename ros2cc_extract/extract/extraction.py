@@ -19,10 +19,10 @@ class Extraction:
     :param files_seen: every file that was read, as shown to the user.
     :param joined: units of one program that wait for each other, as one.
     :param wholes: all units of one program in one, where it has several.
-    :param idle: units without any callback, of which there is no model.
+    :param idle: units without any callback; they have no model.
     :param nodes: what the nodes of each entry have in the graph.
     :param cut: why not all was followed to its end; empty where it was.
-    :param interrupted: somebody has ended it.
+    :param interrupted: it was ended early.
     """
 
     units: tuple[Spec, ...]

@@ -31,7 +31,7 @@ class Names:
 
 @dataclass(frozen=True)
 class Wanted:
-    """A name somebody would like to have, and what tells him from others of that name."""
+    """A name that is wanted, and what distinguishes its owner from others of that name."""
 
     label: str
     key: str | None
@@ -47,13 +47,13 @@ def unique_names(wanted: Sequence[Wanted], taken: Names) -> list[str]:
     names = {indices[0]: taken.take(name) for name, indices in members.items() if name in alone}
     for name, indices in members.items():
         if name not in alone:
-            candidates = _tell_apart(wanted, indices, taken)
+            candidates = _distinguished(wanted, indices, taken)
             for index, candidate in zip(indices, candidates, strict=True):
                 names[index] = taken.take(candidate)
     return [names[index] for index in range(len(wanted))]
 
 
-def _tell_apart(wanted: Sequence[Wanted], members: list[int], taken: Names) -> list[str]:
+def _distinguished(wanted: Sequence[Wanted], members: list[int], taken: Names) -> list[str]:
     entries = [wanted[index] for index in members]
     for parts in (('key',), ('node',), ('node', 'key')):
         names = [_prefixed(entry, parts) for entry in entries]

@@ -10,7 +10,7 @@ from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import Activity, Callback, EntityKind, Spec
 
 UNTIL_THERE = ('wait_for_service', 'wait_for_server')
-"""Calls that wait until somebody offers the service or the action."""
+"""Calls that wait until a node offers the service or the action."""
 
 
 def waited_until_there(
@@ -19,10 +19,10 @@ def waited_until_there(
     """
     Whether the code has waited for the server to be there, in its set-up or before it asks.
 
-    A request that is sent before its server is known is lost, and nobody answers it.
+    A request that is sent before its server is known is lost and never answered.
 
     :param earlier: what the same callback waits for.
-    :param client: whom it asks.
+    :param client: the client that it asks by.
     """
     return block.call in UNTIL_THERE or any(
         each.call in UNTIL_THERE and each.on == client.name for each in (*unit.set_up, *earlier)

@@ -20,7 +20,7 @@ from ros2cc_extract.verify.results.rates import with_arrivals
 from ros2cc_extract.verify.results.results import Verification
 
 OPEN_WAITS = (UNDECIDED.code, OUTSIDE_WAIT.code)
-"""Told of a wait of which no other rule says more."""
+"""Reported for a wait if no other rule says more about it."""
 _WEIGHTS = tuple(Severity)
 _OF_WAITS = ('CC1', 'CC2')
 
@@ -60,8 +60,8 @@ def all_findings(
         ),
         *(finding for findings in by_unit for finding in findings),
     ]
-    told = {(finding.place, finding.message) for finding in found if finding.unit is None}
-    by_identity = {_identity(f): f for f in found if not _is_told(f, told)}
+    reported = {(finding.place, finding.message) for finding in found if finding.unit is None}
+    by_identity = {_identity(f): f for f in found if not _is_reported(f, reported)}
     alike: dict[tuple[object, ...], list[Finding]] = {}
     for identity in sorted(by_identity):
         finding = by_identity[identity]
@@ -73,20 +73,20 @@ def all_findings(
 
 def _without_what_is_decided(findings: Sequence[Finding]) -> Iterator[Finding]:
     """A wait is open only where no other rule, and no other unit, says more of its line."""
-    told = {_line(f) for f in findings if f.code[:3] in _OF_WAITS and f.code not in OPEN_WAITS}
+    reported = {_line(f) for f in findings if f.code[:3] in _OF_WAITS and f.code not in OPEN_WAITS}
     for finding in findings:
-        if finding.code not in OPEN_WAITS or _line(finding) not in told:
+        if finding.code not in OPEN_WAITS or _line(finding) not in reported:
             yield finding
 
 
-def _is_told(finding: Finding, told: Collection[tuple[Place, str]]) -> bool:
-    """Whether the scan itself has told at this place why something is missing."""
+def _is_reported(finding: Finding, reported: Collection[tuple[Place, str]]) -> bool:
+    """Whether the scan itself has reported at this place why something is missing."""
     reason = finding.cause or finding.message.partition(': unit ')[0]
-    return reason != finding.message and (finding.place, reason) in told
+    return reason != finding.message and (finding.place, reason) in reported
 
 
 def _as_one(findings: Sequence[Finding]) -> Finding:
-    """Tell what has one cause once, with the number of units that it shows in."""
+    """Report what has one cause once, with the number of units that it shows in."""
     first = findings[0]
     more = len({finding.unit for finding in findings}) - 1
     if not first.cause or not more:
@@ -132,7 +132,7 @@ def _matters(diagnostic: Diagnostic, releases: Collection[str | None]) -> bool |
 
 
 def is_unread(finding: Finding) -> bool:
-    """Whether it tells of a file of which nothing could be read; that decides no exit status."""
+    """Whether it is about an unreadable file; that decides no exit status."""
     return finding.code == UNREADABLE.code and finding.severity is Severity.ERROR
 
 

@@ -96,7 +96,7 @@ def judge(
     Judge each promise of ``unit``.
 
     :param verification: by the model of rclpy's executors; by any other nothing is decided.
-    :param own: findings about the unit, also those that somebody has accepted.
+    :param own: findings about the unit, also accepted ones.
     :param near: findings in its files that may be about another unit.
     """
     judged = _Unit(unit, verification, own, near)
@@ -234,7 +234,7 @@ def _copies(unit: Spec) -> Iterator[str]:
 
 
 def _overload(unit: Spec) -> Iterator[str]:
-    """Who may be kept waiting where more arrives than one run of each callback."""
+    """The callbacks that may wait if more arrives than one run of each callback."""
     demands = demands_of(unit)
     for callback in unit.callbacks:
         if callback.builtin:

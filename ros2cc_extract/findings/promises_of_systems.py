@@ -1,7 +1,7 @@
 """
 What a unit's promise rests on in a system: that its neighbours answer.
 
-Alone, a unit is judged as if whoever is asked answered. In a system that assumption is discharged
+Alone, a unit is judged as if every service answered. In a system that assumption is discharged
 by the neighbours' own verdicts: a promise that every wait ends is kept only where each service and
 action that is waited for is offered by units that keep theirs.
 """
@@ -39,9 +39,9 @@ _FAMILIES = (DEADLOCK, PROGRESS)
 @dataclass
 class _Offers:
     """
-    Who offers what.
+    Which node offers what.
 
-    :param are_all: nobody else may.
+    :param are_all: no other node may.
     :param names: identities of the units, in the order of the judgements.
     """
 
@@ -139,8 +139,8 @@ def _doubts(
             )
         servers = offers.units.get((wait.what, wait.name), [])
         if not servers:
-            where = '' if offers.are_all else ' in sight'
-            yield f'{who} {wait.what} {wait.name}, which nobody{where} offers'
+            nobody = 'nobody' if offers.are_all else 'no known node'
+            yield f'{who} {wait.what} {wait.name}, which {nobody} offers'
         for unit in servers:
             at = offers.numbers_of(unit)
             if not at or any(_mark(known[n]) is not Mark.KEPT for n in at):

@@ -15,7 +15,7 @@ from ros2cc_extract.findings.rules.races import lost_update
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Spec
 
-_TOLD = (*LOSING, RaceKind.CHANGED_IN_LOOP, RaceKind.TORN)
+_REPORTED = (*LOSING, RaceKind.CHANGED_IN_LOOP, RaceKind.TORN)
 _ADDED = '; their executors run at the same time, each in a thread of its own'
 
 
@@ -41,7 +41,7 @@ def _of_program(units: Sequence[Spec]) -> Iterator[Finding]:
         for other in parts[second.name]
     )
     for race in races_across(doers):
-        if race.kind in _TOLD:
+        if race.kind in _REPORTED:
             yield from _finding(race, units[0])
 
 

@@ -160,7 +160,7 @@ _FEELS: tuple[tuple[Behaviour, Feels], ...] = (
     (THREADS_BY_AFFINITY, _default_threads),
     (SPIN_YIELDS, _pool),
 )
-"""Rows that no verdict rests on, and who feels them."""
+"""Rows that no verdict rests on, and the code that they affect."""
 _OF_IDLE = ((UNTIL_ASKS_FUTURE, _spun_until),)
 _ONCE = frozenset({SPIN_YIELDS})
 """Rows that are listed at one place of a program, since all its pools feel them alike."""
@@ -173,7 +173,7 @@ class Side:
     """
     What one release does to the units.
 
-    :param undecided: names of the units of which a limit left something open.
+    :param undecided: names of the units that a limit left partly open.
     """
 
     release: str
@@ -198,7 +198,7 @@ def changes(
 
 
 def not_compared(old: Side, new: Side) -> frozenset[str]:
-    """Names of the units with findings on one side of which the other side left some open."""
+    """Names of the units with findings on one side that the other side left partly open."""
     lacking = [
         (left or right, new if left else old)
         for left, right in _pairs(old, new)
@@ -287,6 +287,6 @@ def _behaves(row: Behaviour, felt: Felt, unit: Spec, old: str, new: str) -> Chan
         turn=Turn.BEHAVES,
         place=felt.place or Place(unit.name),
         code='',
-        message=f'{row.concerns}{only}: before, {row.told(old)}; then, {row.told(new)}',
+        message=f'{row.concerns}{only}: before, {row.words_for(old)}; then, {row.words_for(new)}',
         because=(row,),
     )

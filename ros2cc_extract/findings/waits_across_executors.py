@@ -29,7 +29,7 @@ def findings_of_joined(joined: Joined, verification: Verification | None) -> tup
     def concerns(together: Sequence[Stuck]) -> bool:
         doers = [each.doer for each in together]
         names = [each.name for each in doers]
-        if joined.is_of_processes:  # who answers may be kept from it by others of its process
+        if joined.is_of_processes:  # others of its process may keep the server from answering
             names += [name for each in together for name in each.enders]
         # The threads of a joined unit are no number of the program's.
         is_by_crowd = any(is_of_repeated(doer, context) for doer in doers)
@@ -53,7 +53,7 @@ def _signed(rule: Rule, hits: tuple[Hit, ...], context: Context) -> Iterator[Fin
 
 
 def _undecided(joined: Joined, context: Context) -> Iterator[Hit]:
-    """Of waits that somebody on another executor ends."""
+    """Waits that a callback on another executor ends."""
     for hit in find_undecided(context):
         if any(_is_across(context.doer_by_name[name], hit, joined) for name in hit.subjects):
             yield hit
@@ -65,16 +65,16 @@ def _is_across(doer: Doer, hit: Hit, joined: Joined) -> bool:
     return joined.executors_of((doer.name, *enders)) > 1
 
 
-def without_what_is_told(found: Iterable[Finding], told: Iterable[Finding]) -> tuple[Finding, ...]:
+def without_reported(found: Iterable[Finding], reported: Iterable[Finding]) -> tuple[Finding, ...]:
     """
-    Leave out what a unit alone shows: a circle with a wait of which that says more.
+    Leave out what a unit alone shows: a circle with a wait about which the unit says more.
 
     A note only says what may happen to the wait, and no more than the circle.
     """
-    told = tuple(told)
-    of_waits = (each for each in told if each.code[:3] == 'CC1' and each.code not in _OPEN)
+    reported = tuple(reported)
+    of_waits = (each for each in reported if each.code[:3] == 'CC1' and each.code not in _OPEN)
     waits = {_line(each) for each in of_waits if each.severity is not Severity.NOTE}
-    lines = {_line(each) for each in told}
+    lines = {_line(each) for each in reported}
     return tuple(
         each
         for each in found

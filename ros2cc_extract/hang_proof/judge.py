@@ -4,7 +4,7 @@ Asks the model whether anything can end what waits forever by the wait-for graph
 The snapshot is a set of states of the unit's model: each callback that waits has begun, has asked
 or waits for its signal, and neither answer nor signal is there. A watcher in the model marks what
 comes after such a state. If no answer and no signal ever comes then, nothing that waits ever ends,
-from whatever state of the snapshot on.
+from any state of the snapshot on.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ def _asked(
 
 
 def _snapshot(standing: Sequence[StandingRun]) -> str:
-    """All of it is there at once; only who waits asks, and only who waits counts as a waiter."""
+    """All of it is there at once; only what waits asks, and only what waits counts as a waiter."""
     found = []
     for run in standing:
         who = run.callback

@@ -3,7 +3,7 @@ From a look at a hanging process to a unit of the model: one executor and what w
 
 The unit has the callbacks that wait forever by the wait-for graph, each with the wait in which it
 stands, and all callbacks that may end one of these waits. Others are left out: a callback that
-neither waits nor ends a wait holds nobody up forever, so a run with it is one without it. What
+neither waits nor ends a wait holds nothing up forever, so a run with it is one without it. What
 may end a wait is taken too wide, as in the graph.
 """
 
@@ -157,7 +157,7 @@ class _Needed:
         return (e for e in self.look.entities.values() if e.number in self.executor.entities)
 
     def _holders(self, lock: int) -> tuple[int, ...]:
-        """Give whose callbacks hold a lock; each of them waits itself."""
+        """Return the callbacks that hold a lock; each of them waits itself."""
         owner = self.look.objects.get(lock, {}).get('owner')
         holders = tuple(
             number
@@ -247,7 +247,7 @@ class _Needed:
         )
 
     def _wakers(self, numbers: Iterable[int], after: int | None) -> tuple[Waker, ...]:
-        """``after`` its own wait, as who holds a lock and waits; else at its end."""
+        """``after`` its own wait, if it holds a lock and waits; else at its end."""
         return tuple(Waker(by=self.names[n], after=after) for n in dict.fromkeys(numbers))
 
     def _standing(self) -> Iterator[StandingRun]:

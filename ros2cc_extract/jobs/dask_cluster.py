@@ -1,7 +1,7 @@
 """
 Jobs done by the workers of a Dask cluster.
 
-Dask hands the jobs of a worker that is lost to another. What nobody can do, because a job fails
+Dask hands the jobs of a worker that is lost to another. What no worker can do, because a job fails
 there, because no worker is left, or because the scheduler itself is gone, is done here.
 """
 
@@ -44,7 +44,7 @@ def cluster_at(address: str) -> DaskCluster:
     The cluster of the scheduler at ``address``.
 
     :raises ToolNotFoundError: when Dask is not installed.
-    :raises InputError: when nobody answers there.
+    :raises InputError: if no scheduler answers there.
     """
     if importlib.util.find_spec('distributed') is None:
         what = 'Dask is not installed here'
@@ -137,7 +137,7 @@ def _compare_versions(client: Any, address: str) -> None:
     same = 'start: dask worker, where the same version of ros2cc-extract and Python is installed'
     try:
         versions = client.run(tool_version)
-    except Exception as error:  # whatever it is that a worker cannot do
+    except Exception as error:  # a worker may fail in any way
         what = f'a worker of {address} cannot run ros2cc-extract: {type(error).__name__}'
         raise InputError(what, None, same) from None
     if not versions:
@@ -206,7 +206,7 @@ def _tried(work: Callable[[Job], Answer], job: Job) -> tuple[Answer] | None:
 
 
 def _fetched(future: Any) -> Any:
-    """The result of a task; ``None`` where there is none to be had, whatever the reason."""
+    """The result of a task; ``None`` if it has none for any reason."""
     try:
         return future.result(timeout=FETCHING_S)
     except BaseException as error:

@@ -1,8 +1,8 @@
 """
-Lists of independent jobs: one interface, whoever does them.
+Lists of independent jobs: one interface for all that can do them.
 
 Jobs and answers are plain values, and an answer depends on its job alone. So nothing changes with
-who gives it, or with how often somebody begins: what others cannot finish is done here.
+its giver, or with how often it is begun: what others cannot finish is done here.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ Answers = Generator[tuple[int, Answer], None, None]
 
 
 class Pool(Protocol):
-    """Who does jobs."""
+    """What does jobs."""
 
     @property
     def is_remote(self) -> bool:
-        """Whether others do them, who share no memory and no files with this process."""
+        """Whether others do them, which share no memory and no files with this process."""
 
     @property
     def size(self) -> int:
@@ -40,7 +40,7 @@ class Pool(Protocol):
         """
         Give each answer with the number of its job, as they come.
 
-        Whoever stops early closes it, and nothing is done any more.
+        To stop early, close it: nothing is done any more.
 
         :param until: others are not waited for any longer; ``work`` looks at the clock itself.
         """
@@ -82,7 +82,7 @@ def in_order(
     """
     All answers in the order of their jobs.
 
-    :param done: told how many there are by now.
+    :param done: called with the number of answers so far.
     """
     found: dict[int, Answer] = {}
     with closing(pool.each(work, jobs)) as answers:

@@ -48,7 +48,7 @@ class ProcessPool(Generic[Request, Answer]):
     """
     Children that answer requests; use as a context manager.
 
-    :param answer: runs in a child, or here where there is none.
+    :param answer: runs in a child, or here if there is none.
     :param size: number of children; none are made for one.
     """
 
@@ -102,7 +102,7 @@ class ProcessPool(Generic[Request, Answer]):
         done: Done = lambda number: None,
     ) -> list[tuple[Answer, int | None]]:
         """
-        Answer ``requests``, each by the child named in ``by`` or by whoever is free.
+        Answer ``requests``, each by the child named in ``by`` or by any that is free.
 
         :param done: called with the number of each request that is answered.
         :return: answers in the order of the requests, and which child gave them.
@@ -128,7 +128,7 @@ class ProcessPool(Generic[Request, Answer]):
     def _answers(
         self, requests: Sequence[Request], by: Sequence[int | None]
     ) -> Iterator[tuple[int, tuple[Answer, int]]]:
-        if not self._lines:  # nobody to wait for, perhaps because there are no processes here
+        if not self._lines:  # nothing to wait for, perhaps because there are no processes here
             return
         from multiprocessing.connection import wait
 
@@ -205,7 +205,7 @@ def _serve(
     """
     Answer until the parent hangs up, or is no more; an interrupt is the parent's to handle.
 
-    :param of_parent: the parent's ends of all lines: nobody hangs up while a child holds one.
+    :param of_parent: the parent's ends of all lines: a line stays open while a child holds one.
     """
     global _is_child
     _is_child = True
@@ -238,7 +238,7 @@ def ends_with_us() -> Callable[[], None]:
 
 
 def _prctl() -> Prctl | None:
-    """The call of Linux by which a process says what it wants to be told; see ``prctl(2)``."""
+    """The system call of Linux that controls a process; see ``prctl(2)``."""
     try:
         import ctypes
 
@@ -248,7 +248,7 @@ def _prctl() -> Prctl | None:
 
 
 def _packed(answer: Callable[[Request], Answer], request: Request) -> bytes:
-    """The pickled answer; ``None`` when there is none to be had here, whatever the reason."""
+    """The pickled answer; ``None`` if there is none here for any reason."""
     try:
         return pickle.dumps((answer(request),), pickle.HIGHEST_PROTOCOL)
     except Exception:  # the parent tries again, and fails as it would have without children

@@ -16,7 +16,7 @@ from ros2cc_extract.source_locations import Place
 MANIFEST = 'package.xml'
 MOST_BYTES = 1_000_000
 SKIP_MARKS = frozenset({'AMENT_IGNORE', 'COLCON_IGNORE', 'pyvenv.cfg'})
-"""Folders that hold one of these are nobody's source; ``colcon`` marks build, install and log."""
+"""Folders that hold one of these are no source; ``colcon`` marks build, install and log."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ def read_package(folder: Path) -> Package:
     """
     Read the manifest of a package.
 
-    :raises InputError: when there is none, or it is no package manifest.
+    :raises InputError: if there is none, or it is no package manifest.
     """
     path = folder / MANIFEST
     try:
@@ -78,7 +78,7 @@ def python_files(
     List the Python files that an ament linter looks at.
 
     :param excludes: shell patterns of file names, or of paths as they are walked.
-    :param on_error: is told of folders that cannot be looked into.
+    :param on_error: called with folders that cannot be read.
     :raises InputError: for a path that is not there.
     """
     found: dict[Path, None] = {}

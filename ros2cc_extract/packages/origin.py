@@ -1,7 +1,7 @@
 """
-What a job of somebody else's is to install: never a mere name.
+What a job of another repository is to install: never a mere name.
 
-The package index gives a name to whoever takes it first. What is written into a job therefore
+The package index gives a name to the first that takes it. What is written into a job therefore
 names a commit, or a wheel by its content or in the repository itself.
 """
 

@@ -34,10 +34,10 @@ def fingerprints_at(revision: str, job: Job, stderr: TextIO) -> frozenset[str]:
     top = Path(os.fsdecode(shown.removesuffix(b'\n'))).resolve()
     base = _fork_point(repository, revision)
 
-    def tell(line: str) -> None:
+    def report(line: str) -> None:
         print(f'{PROGRAM}: {line}', file=stderr)
 
-    files = Snapshot.of(repository, top, base, tell)
+    files = Snapshot.of(repository, top, base, report)
     paths = [path for path in job.paths if _has_python(files, path)]
     if not paths:
         return frozenset()

@@ -1,4 +1,4 @@
-"""The whole job without its telling: scan, close, verify, find, and take out what is accepted."""
+"""The whole job without its report: scan, close, verify, find, and take out what is accepted."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from ros2cc_extract.findings.races_across_executors import findings_across
 from ros2cc_extract.findings.requirements import check_requirements
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import CODE as UNDECIDED_WAIT
 from ros2cc_extract.findings.system_findings import findings_of_system
-from ros2cc_extract.findings.waits_across_executors import without_what_is_told
+from ros2cc_extract.findings.waits_across_executors import without_reported
 from ros2cc_extract.jobs.pools import Pool
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.pipeline.config import Config
@@ -53,7 +53,7 @@ class Job:
     """
     What to check, and how.
 
-    :param arguments: what launch files among the paths are told, by name.
+    :param arguments: arguments of launch files among the paths, by name.
     :param known: fingerprints of findings that are accepted already.
     :param root: repository to which fingerprints are relative.
     :param shows_verdicts: the verdicts of the profile in ``options`` are wanted too, and not only
@@ -62,8 +62,8 @@ class Job:
     :param spent_s: of these seconds, on what was checked before.
     :param files: those of the disk, or of another revision.
     :param noticed: what is known already, such as folders that cannot be looked into.
-    :param pool: who verifies; the cores of this machine by default.
-    :param shard: of all units only its own are verified and told.
+    :param pool: what runs the searches; the cores of this machine by default.
+    :param shard: of all units only its own are verified and reported.
     :param known_units: what shards have found, by ``Task.key``; nothing is verified then.
     """
 
@@ -103,7 +103,7 @@ class Outcome:
     :param accepted: how many findings a comment or the baseline accepts.
     :param promises: of each unit, what is proven, broken and undecided.
     :param system: what launch files among the paths start.
-    :param interrupted: somebody has ended it before all units were verified.
+    :param interrupted: it was ended before all units were verified.
     :param answers: of a shard, what is known of its units, by ``Task.key``.
     """
 
@@ -147,7 +147,7 @@ class Outcome:
 
     @property
     def undecided_waits(self) -> tuple[Finding, ...]:
-        """Waits of which it is open whether they end."""
+        """Waits that are undecided."""
         return tuple(finding for finding in self.findings if finding.code == UNDECIDED_WAIT)
 
     @property
@@ -160,7 +160,7 @@ class Outcome:
 
 
 def _has_callbacks(unit: Spec) -> bool:
-    """Whether there is any that somebody wrote, or that somebody waits for."""
+    """Whether there is any that a user wrote, or that code waits for."""
     waited = waited_for(unit)
     return any(not each.builtin or each.name in waited for each in unit.callbacks)
 
@@ -228,9 +228,9 @@ def _units_of(job: Job, extraction: Extraction) -> tuple[tuple[Spec, ...], list[
         for unit in extraction.units
         if job.policy.builtin or _has_callbacks(unit)
     ]
-    pairs = zip(units, with_arrivals(units), strict=True)  # who sends may be in another shard
+    pairs = zip(units, with_arrivals(units), strict=True)  # the sender may be in another shard
     own = [pair for pair in pairs if job.shard is None or job.shard.holds(pair[0])]
-    # Verdicts that nobody will see are not asked for.
+    # Verdicts that will not be shown are not asked for.
     options = job.options if job.shows_verdicts else judging_options(job.options)
     tasks = [Task(each, close(unit, job.policy), options, job.keeps_runs) for unit, each in own]
     return tuple(unit for unit, _ in own), tasks
@@ -256,7 +256,7 @@ def _findings(
 ) -> tuple[Finding, ...]:
     """All findings: of the scan, of each unit, of several units, and of what is demanded."""
     own = [each.findings for each in examined]
-    across = without_what_is_told(
+    across = without_reported(
         (finding for each in together for finding in each.findings),
         (finding for found in own for finding in found),
     )
@@ -275,7 +275,7 @@ def _findings(
 def _promises(
     tasks: Sequence[Task], examined: Sequence[Examined], findings: Sequence[Finding]
 ) -> Iterator[tuple[Judgement, ...]]:
-    """What somebody has accepted breaks a promise all the same."""
+    """An accepted finding breaks a promise all the same."""
     units = [task.unit for task in tasks]
     for task, each in zip(tasks, examined, strict=True):
         of_others, near = about(findings, task.unit, units)
@@ -307,7 +307,7 @@ def _patience(deadline: Deadline | None, seconds: float | None) -> Patience:
 
 
 def _defects(units: Sequence[Spec], examined: Sequence[Examined]) -> Iterator[Diagnostic]:
-    """Tell which units could not be verified because something is wrong here."""
+    """Report the units that could not be verified because of a defect of this tool."""
     for unit, each in zip(units, examined, strict=True):
         if each.shown.defect:
             yield Diagnostic(

@@ -142,7 +142,7 @@ def _config(table: Mapping[str, Any], path: Path) -> Config:
 
 
 def _address(value: object, path: Path) -> str:
-    """An absolute address, since whoever reads a report stands elsewhere."""
+    """An absolute address, since a report is read from another folder."""
     if value == '':
         return ''
     if not isinstance(value, str) or not ADDRESS.fullmatch(value):

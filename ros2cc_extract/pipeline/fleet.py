@@ -32,7 +32,7 @@ KEY = 'origin'
 LONGEST_ERROR = 200
 _SETTINGS = ('package.xml', 'setup.cfg', 'pyproject.toml')
 """What a scan reads of a folder beside its Python files."""
-Tell = Callable[[Job, Outcome, Mapping[str, Any]], str]
+Reporter = Callable[[Job, Outcome, Mapping[str, Any]], str]
 
 
 @dataclass(frozen=True)
@@ -71,13 +71,13 @@ class Result:
 
     @property
     def found(self) -> Counter[str]:
-        """Its counts, 0 where there is none."""
+        """Its counts, 0 where it has none."""
         return Counter(self.summary)
 
 
 def repositories(folders: Sequence[Path]) -> list[Repository]:
     """
-    Name each folder by as few of its last parts as tell it from the others.
+    Name each folder by as few of its last parts as distinguish it from the others.
 
     :raises InputError: when one is no folder, or is given twice.
     """
@@ -109,7 +109,7 @@ def origin_of(repository: Repository, job: Job) -> dict[str, Any]:
     for path in _read_files(repository.folder):
         try:
             content = read_regular(path, SIZE_LIMIT_BYTES)
-        except OSError:  # the scan tells it
+        except OSError:  # the scan reports it
             content = b''
         name = str(path).encode('utf-8', 'surrogatepass')
         digest.update(b'%d %d ' % (len(name), len(content)) + name + content)
@@ -157,11 +157,11 @@ class Part:
     origin: Mapping[str, Any]
 
 
-def check_one(tell: Tell, deadline: Deadline, part: Part) -> Result:
+def check_one(report_of: Reporter, deadline: Deadline, part: Part) -> Result:
     """
     Check one repository; what goes wrong with it does not end the others.
 
-    :param tell: writes the report.
+    :param report_of: writes the report.
     :param deadline: of the whole fleet.
     """
     if deadline.is_over:
@@ -173,11 +173,11 @@ def check_one(tell: Tell, deadline: Deadline, part: Part) -> Result:
     except Ros2ccError as error:
         return Result(part.repository, State.FAILED, error=str(error))
     except Exception as error:
-        told = ' '.join(f'internal error: {type(error).__name__}: {error}'.split())
-        return Result(part.repository, State.FAILED, error=told[:LONGEST_ERROR])
+        message = ' '.join(f'internal error: {type(error).__name__}: {error}'.split())
+        return Result(part.repository, State.FAILED, error=message[:LONGEST_ERROR])
     if outcome.interrupted:
         raise KeyboardInterrupt
     is_cut = deadline.is_over and outcome.is_undecided
-    text = tell(job, outcome, {**part.origin, 'complete': not is_cut})
+    text = report_of(job, outcome, {**part.origin, 'complete': not is_cut})
     state = State.CUT if is_cut else State.CHECKED
     return Result(part.repository, state, outcome.summary, text)

@@ -26,7 +26,7 @@ class Meter:
         """So many are done, of so many."""
 
     def search(self, title: str) -> SearchProgress | None:
-        """What shows the states of one long search, where somebody looks."""
+        """What shows the states of one long search, if it is watched."""
         return None
 
 
@@ -47,14 +47,14 @@ class Bar(Meter):
     def search(self, title: str) -> SearchProgress | None:
         """Draw how far one search is."""
 
-        def tell(progress: Progress) -> None:
+        def show(progress: Progress) -> None:
             states = f'{progress.states:,} states, {progress.seconds:.0f} s'
             self._drawn.update(
                 self._task, description=f'{self._title} {one_line(title)}: {states}'
             )
             self._draw(False)
 
-        return tell
+        return show
 
     def _draw(self, is_end: bool) -> None:
         now = monotonic()
@@ -87,8 +87,8 @@ def search_progress(stderr: TextIO, title: str) -> Iterator[SearchProgress | Non
     from rich.console import Console
     from rich.markup import escape
 
-    told = f'verifying {escape(one_line(title))}'
-    with Console(file=raw(stderr)).status(told) as status:
+    words = f'verifying {escape(one_line(title))}'
+    with Console(file=raw(stderr)).status(words) as status:
         yield lambda progress: status.update(
-            f'{told}: {progress.states:,} states, {progress.seconds:.0f} s'
+            f'{words}: {progress.states:,} states, {progress.seconds:.0f} s'
         )

@@ -2,7 +2,7 @@
 A check in several parts, each on a machine of its own, and their results as one.
 
 Each part scans all files and verifies its share of the units. What it has found out of them is
-plain data in its JSON. Who puts the parts together scans once more and verifies nothing: so
+plain data in its JSON. Merging the parts scans once more and verifies nothing: so
 findings, comments, baselines and formats are those of one whole check, by the same code.
 """
 
@@ -47,7 +47,7 @@ _WRITTEN = 'name what check --shard i/n --output-format json has written'
 
 
 def shard_data(shard: Shard, answers: Mapping[str, Examined]) -> dict[str, Any]:
-    """What the JSON of a part keeps for those who put the parts together."""
+    """What the JSON of a part keeps for merging the parts."""
     units = {key: KEPT.pack(Kept.of(examined)) for key, examined in answers.items()}
     return {'number': shard.number, 'of': shard.of, 'tool': tool_version(), 'units': units}
 
@@ -56,7 +56,7 @@ def read_shards(paths: Sequence[Path]) -> dict[str, Examined]:
     """
     Read the results of all parts.
 
-    :raises InputError: when a file is none, is of another version of the tool, or a part is
+    :raises InputError: when a file is no part, is of another version of the tool, or a part is
         missing.
     """
     found: dict[str, Examined] = {}
@@ -67,12 +67,12 @@ def read_shards(paths: Sequence[Path]) -> dict[str, Examined]:
         found.update(units)
     counts = {shard.of for shard in shards}
     if len(counts) > 1:
-        told = ' and '.join(map(str, sorted(counts)))
-        raise InputError(f'some are of {told} shards', None, _SAME)
+        words = ' and '.join(map(str, sorted(counts)))
+        raise InputError(f'some are of {words} shards', None, _SAME)
     missing = sorted(set(range(1, max(counts) + 1)) - {shard.number for shard in shards})
     if missing:
-        told = ', '.join(f'{number}/{max(counts)}' for number in missing)
-        raise InputError(f'there is no result of shard {told}', None, 'name the files of all')
+        words = ', '.join(f'{number}/{max(counts)}' for number in missing)
+        raise InputError(f'there is no result of shard {words}', None, 'name the files of all')
     return found
 
 

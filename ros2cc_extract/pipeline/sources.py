@@ -32,7 +32,7 @@ FOREIGN_SUFFIXES = (
     '.toml',
     '.xml',
 )
-"""Of files that nobody means as Python, though one of plain words would parse."""
+"""Suffixes of files that are not meant as Python, though one of plain words would parse."""
 STANDARD_INPUT = Path('-')
 MOST_BYTES = 64_000_000
 RECORDING_SUFFIX = '.json'
@@ -58,7 +58,7 @@ def scan_sources(
     :param parameters: what a launch sets for the nodes.
     :param files: those of the disk, or of another revision.
 
-    Nodes without any callback, such as those that only publish, are told and left out: neither
+    Nodes without any callback, such as those that only publish, are reported and left out: neither
     the published format nor a model has a place for them.
     """
     from ros2cc_extract.extract.static.api import scan
@@ -78,8 +78,8 @@ def scan_sources(
         )
     left_out = [unit for unit in extraction.units if not unit.callbacks]
     for unit in left_out:
-        in_sight = ' in sight' if _missing(unit) else ''
-        print(f'{_where(unit)}: unit {unit.name} has no callback{in_sight}, left out', file=stderr)
+        known = ' known' if _missing(unit) else ''
+        print(f'{_where(unit)}: unit {unit.name} has no{known} callback, left out', file=stderr)
     return replace(
         extraction,
         units=tuple(unit for unit in extraction.units if unit.callbacks),
@@ -95,8 +95,8 @@ def _cache_folder(stderr: TextIO) -> Path | None:
     folder = default_cache_folder()
     others = who_can_change(folder) if folder is not None else None
     if others is not None:
-        told = f'{folder}: not used as a cache, as other users can change {others}'
-        print(f'{told}; let XDG_CACHE_HOME name a folder that is yours alone', file=stderr)
+        words = f'{folder}: not used as a cache, as other users can change {others}'
+        print(f'{words}; let XDG_CACHE_HOME name a folder that is yours alone', file=stderr)
         return None
     return folder
 

@@ -71,7 +71,7 @@ def scan_system(
     builder = _Builder(scan, root, kept.scans)
     processes = [p for each in launches for p in builder.processes(each)]
     noticed = tuple(d for each in launches for d in each.noticed)
-    outside = tuple(_told(p) for p in processes if p.outside is not None)
+    outside = tuple(_diagnostic(p) for p in processes if p.outside is not None)
     sources = tuple(dict.fromkeys(file for each in launches for file in each.files))
     system = System(
         name=', '.join(shown_name(path.name) for path in files_of_launch),
@@ -144,7 +144,7 @@ class _Builder:
             whole=next((each for each in found.wholes if each.entry == entry), None),
         )
         if entry is None:
-            return replace(process, outside=Unknown('no start of a node is in sight in its file'))
+            return replace(process, outside=Unknown('no start of a node is found in its file'))
         return process
 
     def _scan_once(self, path: Path, parameters: GivenParameters) -> Extraction:
@@ -157,8 +157,8 @@ class _Builder:
         file = next((w for w in reversed(launched.command) if w.endswith('.py')), '')
         words = file or ''.join(launched.command[:1])
         facts = (launched.name, launched.executable, words)
-        told = next((fact for fact in facts if isinstance(fact, str) and fact), launched.kind)
-        name = (told.rpartition('/')[2] or told).removesuffix('.py')
+        given = next((fact for fact in facts if isinstance(fact, str) and fact), launched.kind)
+        name = (given.rpartition('/')[2] or given).removesuffix('.py')
         number = self._names[name] = self._names.get(name, 0) + 1
         return name if number == 1 else f'{name}_{number}'
 
@@ -170,10 +170,10 @@ class _Builder:
 
 def as_one(found: Sequence[Extraction]) -> Extraction:
     """Several scans as one; what several of them found stands in it once."""
-    told = dict.fromkeys(d for each in found for d in each.diagnostics)
+    reported = dict.fromkeys(d for each in found for d in each.diagnostics)
     return Extraction(
         units=tuple(dict.fromkeys(unit for each in found for unit in each.units)),
-        diagnostics=tuple(sorted(told, key=lambda d: (d.place, d.slug, d.message))),
+        diagnostics=tuple(sorted(reported, key=lambda d: (d.place, d.slug, d.message))),
         files_seen=tuple(dict.fromkeys(file for each in found for file in each.files_seen)),
         joined=tuple(dict.fromkeys(each for e in found for each in e.joined)),
         wholes=tuple(dict.fromkeys(each for e in found for each in e.wholes)),
@@ -199,7 +199,7 @@ def _given(launched: Launched, nodes: Sequence[SystemNode]) -> GivenParameters:
 
 
 def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
-    """The Python file of a process, or why there is none."""
+    """The Python file of a process, or why it has none."""
     if launched.kind in _NO_CODE:
         return Unknown(f'a {launched.kind} node is no Python', launched.source)
     if launched.kind == 'process':
@@ -210,11 +210,11 @@ def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
     if isinstance(name, Unknown):
         return Unknown(name.reason, name.at or launched.source)
     if name is None:
-        return Unknown('no executable is in sight', launched.source)
+        return Unknown('no executable is found', launched.source)
     if not package:
         return _python_file(Path(name), launched, started)
     if started.packages.folder(package) is None:
-        return Unknown(f'package {package} is not in sight', launched.source)
+        return Unknown(f'package {package} is not found', launched.source)
     found = started.packages.executable(package, name)
     if found is None:
         return Unknown(_not_found(package, name, started), launched.source)
@@ -224,7 +224,7 @@ def _executable(launched: Launched, started: Launch) -> Executable | Unknown:
 
 
 def _not_found(package: str, name: str, started: Launch) -> str:
-    """Why an executable is not in sight: nothing declares it, or that could not be read."""
+    """Why an executable is not known: nothing declares it, or that could not be read."""
     why = f'executable {name} was not found among what package {package} installs'
     unread = started.packages.unread(package)
     return f'{why}, of which not all could be read: {unread[0]}' if unread else why
@@ -264,7 +264,7 @@ def _named(graphs: Sequence[NodeGraph]) -> list[NodeGraph]:
     return known or list(graphs)
 
 
-def _told(process: Process) -> Diagnostic:
+def _diagnostic(process: Process) -> Diagnostic:
     why = process.outside
     assert why is not None
     return Diagnostic(

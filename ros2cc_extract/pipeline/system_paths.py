@@ -172,8 +172,10 @@ def _of_folder(
         scan_launch_files([each], arguments, stderr, cached=cached, files=files, kept=kept)
         for each in launches
     ]
-    told = dict.fromkeys([*barred, *(d for each in found for d in each.extraction.diagnostics)])
-    return Side(str(path), tuple(each.system for each in found), tuple(told))
+    reported = dict.fromkeys(
+        [*barred, *(d for each in found for d in each.extraction.diagnostics)]
+    )
+    return Side(str(path), tuple(each.system for each in found), tuple(reported))
 
 
 def launch_files_in(folder: Path, files: Files, barred: list[Diagnostic]) -> Iterator[Path]:
@@ -183,11 +185,11 @@ def launch_files_in(folder: Path, files: Files, barred: list[Diagnostic]) -> Ite
     :param barred: gets the folders that could not be looked into.
     """
 
-    def tell(error: OSError) -> None:
+    def report(error: OSError) -> None:
         barred.append(unreadable_folder(error))
 
     found: list[Path] = []
-    for base, folders, names in files.walk(folder, tell):
+    for base, folders, names in files.walk(folder, report):
         folders[:] = sorted(f for f in folders if f not in _SKIPPED and not f.startswith('.'))
         paths: Iterable[Path] = (Path(base) / name for name in sorted(names))
         found += [path for path in paths if is_launch_file(path, files)]

@@ -31,9 +31,9 @@ def examine(
     shelf: Shelf | None = None,
 ) -> Examined:
     """
-    Verify one unit; runs that are not kept are told by nobody but ``_with_runs``.
+    Verify one unit; only ``_with_runs`` puts runs that are not kept into words.
 
-    What is wrong with our own model of it is told, and the other units go on.
+    An error of our own model of it is reported, and the other units go on.
     """
     try:
         return _examine(task, watch, deadline, shelf or Shelf())
@@ -71,7 +71,7 @@ def _verify_in_time(
     deadline: Deadline | None,
     shelf: Shelf,
 ) -> Verification:
-    """Searches look at the clock, and tell what they know; what else takes long is ended."""
+    """Verify until the deadline: searches return what they know, all else is ended."""
     options = replace(options, limits=replace(options.limits, deadline=deadline))
     try:
         with ended_by(deadline):
@@ -95,7 +95,7 @@ def _kept_result(result: QueryResult, with_runs: bool) -> QueryResult:
 
 
 def unasked(task: Task, reason: str) -> Examined:
-    """A unit that nobody has come to."""
+    """A unit that was not reached."""
     shown = undecided_unit(task.closed, task.options, reason)
     judged = undecided_unit(task.closed, task.judging, reason) if task.judging else shown
     return Examined(shown, judged, _findings(task, judged))

@@ -1,8 +1,8 @@
 """
 Verdicts and findings of many units: from the cache, or by a pool of workers.
 
-What travels between processes is plain data, and what the cache keeps is JSON. A run that nobody
-has asked for stays behind; whoever asks for it later has the unit verified once more.
+What travels between processes is plain data, and what the cache keeps is JSON. A run that was
+not asked for stays behind; asking for it later verifies the unit once more.
 """
 
 from __future__ import annotations
@@ -73,8 +73,8 @@ class Examination:
     """
     All units.
 
-    :param found: what is known of them as plain data; ``None`` where nobody has come to it.
-    :param interrupted: somebody has ended it: what was not reached by then is undecided.
+    :param found: what is known of them as plain data; ``None`` if it was not reached.
+    :param interrupted: it was ended: what was not reached by then is undecided.
     """
 
     units: tuple[Examined, ...]
@@ -98,9 +98,9 @@ def examine_all(
     :param folder: cache of earlier answers.
     :param meter: shows how many units are done; the states too where they are verified here.
     :param deadline: for all of them; what is not decided by then is undecided.
-    :param pool: who verifies, by default the cores of this machine.
+    :param pool: what runs the searches, by default the cores of this machine.
     :param known: answers of others by ``Task.key``; where they are given, nothing is verified.
-    :param interrupted: somebody has ended it before: only what the cache knows is told.
+    :param interrupted: it was ended before: only what the cache has is reported.
     """
     engines = {task.options.engine.value for task in tasks}
     version = '\0'.join((tool_version(), *sorted(engines)))
@@ -146,7 +146,7 @@ def _all_known(tasks: Sequence[Task], known: Mapping[str, Examined]) -> Iterator
 
 def _answer(shelf: _Later, deadline: Deadline | None, meter: Meter | None, task: Task) -> Examined:
     """One job of ``examine_all``, wherever it is done."""
-    # Imported here: what the cache knows is told without a checker, which loads slowly.
+    # Imported here: what the cache has is reported without a checker, which loads slowly.
     from ros2cc_extract.pipeline.unit_examination import examine, unasked
 
     if deadline is not None and deadline.is_over:
@@ -165,7 +165,7 @@ def _interrupted(task: Task) -> Examined:
 
 @dataclass(frozen=True)
 class _Later:
-    """The answers that hold for parts of other units too, when somebody asks for them."""
+    """The answers that hold for parts of other units too, on demand."""
 
     folder: Path | None
     version: str

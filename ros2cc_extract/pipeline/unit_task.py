@@ -107,7 +107,7 @@ def judging_options(options: Options) -> Options:
 
 
 def joined_task(joined: Joined, policy: Policy, options: Options) -> Task:
-    """What several units are asked together: only findings are told of it."""
+    """Return the task of several units joined into one: only findings are reported for it."""
     task = Task(joined.spec, close(joined.spec, policy), options, False, joined)
     return replace(task, options=of_joined(judging_options(options)))
 

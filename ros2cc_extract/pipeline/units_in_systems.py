@@ -1,5 +1,5 @@
 """
-What the other processes of a system make of a unit: who is there, and how many ask at once.
+What the other processes of a system add to a unit: partners, and how many ask at once.
 
 Units are judged one by one; what their neighbours are known to do stands in them.
 """

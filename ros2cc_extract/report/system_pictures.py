@@ -2,7 +2,7 @@
 Pictures of a system, as DOT for Graphviz and as a Mermaid flowchart.
 
 Processes are boxes around their nodes; topics, services and actions stand between them, with an
-arrow from who sends or asks to who takes or answers. What a circle of waits goes through is red.
+arrow from sender or client to receiver or server. What a circle of waits goes through is red.
 Several systems are boxes side by side, and nothing connects them.
 """
 

@@ -1,4 +1,4 @@
-"""Units as a Mermaid flow chart: executor, groups as boxes, callbacks, and who waits for whom."""
+"""Units as a Mermaid flow chart: executor, groups as boxes, callbacks, and their waits."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 """
-Asks git, of a repository that may be anybody's, what it holds.
+Ask git what an untrusted repository holds.
 
 Settings of the repository may name programs to be run. None of them is: only commands that
 look up objects are used, what they could start all the same is switched off, and nothing is
@@ -215,7 +215,7 @@ def objects(
     repository: Repository, names: Sequence[str], most_bytes: int
 ) -> Iterator[bytes | int]:
     """
-    Read blobs in the order of their names; of a larger one only its size is told.
+    Read blobs in the order of their names; of a larger one only its size is returned.
 
     :raises InputError: when one is not there.
     """
@@ -237,7 +237,7 @@ def objects(
 
 
 def _size(line: str) -> int:
-    """Of an object, as ``cat-file --batch-check`` tells it."""
+    """The size of an object, from a line of ``cat-file --batch-check``."""
     name, _, size = line.rpartition(' ')
     if not size.isdecimal():
         raise InputError(f'git cat-file: {name or size} is not in this clone', None, NOT_WHOLE)

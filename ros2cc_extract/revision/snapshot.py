@@ -23,11 +23,11 @@ MOST_ENTRIES = 1_000_000
 MOST_LINKS = 40
 LONGEST_PATH = 4096
 KEPT_BYTES = 8_000_000
-"""Of a larger file nobody here has a use for more than its size."""
+"""Of a larger file only its size is used here."""
 _MODULES_IN_MODULES = 16
 _LINK, _MODULE = '120000', '160000'
 _NO_NAMES = frozenset({'', '.', '..', '.git'})
-Tell = Callable[[str], None]
+Report = Callable[[str], None]
 _READ_AHEAD = ('.py', 'package.xml', 'setup.cfg', 'pyproject.toml')
 
 
@@ -88,14 +88,14 @@ class Snapshot:
             self._add(path, entry)
 
     @staticmethod
-    def of(repository: Repository, top: Path, revision: str, tell: Tell) -> Snapshot:
+    def of(repository: Repository, top: Path, revision: str, report: Report) -> Snapshot:
         """
         List what a revision holds; submodules as far as they are checked out.
 
-        :param tell: takes a line about what is missing.
+        :param report: takes a line about what is missing.
         :raises InputError: when git cannot say.
         """
-        return Snapshot(top, dict(_entries(repository, top, revision, tell)))
+        return Snapshot(top, dict(_entries(repository, top, revision, report)))
 
     def place_of(self, path: Path) -> str | None:
         """
@@ -252,7 +252,7 @@ def _entries(
     repository: Repository,
     folder: Path,
     revision: str,
-    tell: Tell,
+    report: Report,
     above: tuple[str, ...] = (),
 ) -> Iterator[tuple[str, Entry]]:
     """
@@ -277,9 +277,9 @@ def _entries(
         inner = folder / os.fsdecode(name)
         if len(above) < _MODULES_IN_MODULES and _is_checked_out(inner):
             if Repository(inner).try_to_ask('cat-file', '-e', f'{object_name}^{{commit}}').status:
-                tell(f'submodule {path} has no {object_name[:12]}: what is in it counts as new')
+                report(f'submodule {path} has no {object_name[:12]}: what is in it counts as new')
             else:
-                yield from _entries(Repository(inner), inner, object_name, tell, (path,))
+                yield from _entries(Repository(inner), inner, object_name, report, (path,))
 
 
 def _is_checked_out(module: Path) -> bool:

@@ -80,7 +80,7 @@ def _check(args: argparse.Namespace) -> tuple[int, list[str]]:
     )
     outcome = check_paths(standard_job(files, config, barred), sys.stderr)
     failures = [f for f in outcome.findings if f.severity is not Severity.NOTE]
-    _tell(outcome, len(failures))
+    _report(outcome, len(failures))
     if args.xunit_file is not None:
         seen = outcome.extraction.files_seen
         line = last_line(outcome.summary)
@@ -89,7 +89,7 @@ def _check(args: argparse.Namespace) -> tuple[int, list[str]]:
     return EXIT_FINDINGS if failures else EXIT_CLEAN, [_line(f) for f in failures]
 
 
-def _tell(outcome: Outcome, failures: int) -> None:
+def _report(outcome: Outcome, failures: int) -> None:
     print_findings(outcome.findings, Paths(Path.cwd()), console_for(sys.stdout))
     undecided = outcome.summary['undecided']
     if undecided:

@@ -42,7 +42,7 @@ class CallbackCheck:
         return 'callbacks'
 
     def check(self) -> Counts:
-        """Count findings; each is told as a warning or error of the doctor."""
+        """Count findings; each is reported as a warning or error of the doctor."""
         folder = checked_folder(Path.cwd())
         if folder is None:
             return Counts()

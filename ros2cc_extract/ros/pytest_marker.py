@@ -1,4 +1,4 @@
-"""Tells pytest the markers of the test file that ``ros2cc-extract init`` writes."""
+"""Register with pytest the markers of the test file that ``ros2cc-extract init`` writes."""
 
 from __future__ import annotations
 

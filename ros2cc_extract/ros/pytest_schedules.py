@@ -229,9 +229,9 @@ class _Schedule:
             call.longrepr = '\n'.join(map(_text, lost))
         for report in reports:
             if report.failed:
-                report.sections.append((SECTION, self._told(item)))
+                report.sections.append((SECTION, self._words(item)))
 
-    def _told(self, item: pytest.Item) -> str:
+    def _words(self, item: pytest.Item) -> str:
         from ros2cc_extract.explore.failures import Kind
 
         assert self._own is not None
@@ -251,7 +251,7 @@ class _Schedule:
 
 
 def _text(failure: Failure) -> str:
-    from ros2cc_extract.explore.telling import shown_path
+    from ros2cc_extract.explore.wording import shown_path
 
     where = f'{shown_path(failure.file)}:{failure.line}'
     head = f'{where}: {failure.kind.value}: {failure.words}'

@@ -1,5 +1,5 @@
 """
-``ros2 cc …``: the whole command line under the command everybody has at hand.
+``ros2 cc …``: the whole command line under the command that every user has.
 
 Loaded by ``ros2`` through the entry point ``ros2cli.command``; importing it needs no ROS.
 Source of the interface: ros2cli 0.36.1, ``ros2cli/command/__init__.py``.
@@ -19,7 +19,7 @@ except ImportError:
 NO_PREFIX = '\0'
 
 
-class CcCommand(CommandExtension):  # type: ignore[misc]  # of whatever ros2cli is installed
+class CcCommand(CommandExtension):  # type: ignore[misc]  # of any installed ros2cli
     """Check what the callbacks of Python nodes can do to each other."""
 
     def add_arguments(

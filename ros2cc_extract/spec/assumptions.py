@@ -1,5 +1,5 @@
 """
-Closes holes of a unit by what somebody vouches for: ``--assume threads=4``.
+Close holes of a unit by what the user vouches for: ``--assume threads=4``.
 
 An assumption fills only what is unknown or a default; what the source says stays. Every fact
 filled that way carries the assumption, so that no verdict hides it.

@@ -29,7 +29,7 @@ class Policy:
     """
     How holes are closed.
 
-    :param builtin: keep the entities nobody wrote in the model.
+    :param builtin: keep rclpy's own entities in the model.
     :param threads: number of worker threads, instead of what the unit says.
     :param rclpy: version of rclpy, instead of the one that the unit names, if any.
     """
@@ -84,8 +84,12 @@ def close(spec: Spec, policy: Policy = Policy()) -> ClosedSpec:  # noqa: B008 - 
     reduced = _with_tasks_in_no_group(reduced)
     used = {callback.group for callback in reduced.callbacks}
     reduced = replace(reduced, groups=tuple(g for g in reduced.groups if g.name in used))
-    told = (*_assumptions(reduced, policy), *_moved_tasks(reduced, spec), *_empty_groups(spec))
-    return ClosedSpec(spec=reduced, assumptions=told)
+    all_assumptions = (
+        *_assumptions(reduced, policy),
+        *_moved_tasks(reduced, spec),
+        *_empty_groups(spec),
+    )
+    return ClosedSpec(spec=reduced, assumptions=all_assumptions)
 
 
 def _empty_groups(spec: Spec) -> list[str]:

@@ -20,10 +20,10 @@ def display_names(spec: Spec) -> Mapping[str, str]:
         *spec.activities,
         *spec.groups,
     )
-    return _told_apart((each.name, each.display_name, each.source) for each in named)
+    return _distinguished((each.name, each.display_name, each.source) for each in named)
 
 
-def _told_apart(entries: Iterable[tuple[str, str, Place | None]]) -> Mapping[str, str]:
+def _distinguished(entries: Iterable[tuple[str, str, Place | None]]) -> Mapping[str, str]:
     entries = list(entries)
     times = Counter(words for _, words, _ in entries)
     with_line = {name: _with_line(words, place) for name, words, place in entries}

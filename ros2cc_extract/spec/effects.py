@@ -1,7 +1,7 @@
 """
 What code does while it runs: it waits, wakes others, takes locks, reads and writes.
 
-The same values describe callbacks and activities; ``model.py`` says whose they are.
+The same values describe callbacks and activities; ``model.py`` says which.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ OUTSIDE = 'outside'
 TIME = 'time'
 
 BY_ITSELF = 'of these waits end by themselves'
-"""Why a wait is left open of which only so many end without a waker, as of a bounded queue."""
+"""Why a wait is left open if only so many end without a waker, as of a bounded queue."""
 
 UNKNOWN_WAIT = 'unknown wait'
 """A call that waits by its name, on something that could not be followed."""
@@ -33,7 +33,7 @@ NOT_FOLLOWED = 'code that is not followed'
 """The rest of what is too long to be followed, or too late: there may be any wait in it."""
 
 WORKING_LOOP = 'working loop'
-"""A loop in which a thread works until somebody ends it: only its end is waited for."""
+"""A loop in which a thread works until it is ended: only its end is waited for."""
 
 POLLING_LOOP = 'polling loop'
 """A loop that does nothing but wait until what it asks for has changed."""
@@ -51,13 +51,13 @@ AWAIT = 'await'
 """How a coroutine waits; with a blank and a name behind it, in an operation of asyncio."""
 
 ENDLESS_LOOP = 'endless loop'
-"""A loop that nothing in sight leaves."""
+"""A loop that no known code leaves."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Waker:
     """
-    Who can end a wait, and where.
+    What can end a wait, and where.
 
     :param by: name of a callback or an activity of the unit, ``OUTSIDE`` (another process, the
         operating system) or ``TIME``.
@@ -90,16 +90,16 @@ class Blocking:
     :param held: locks held meanwhile, outermost first; one that its holder may take once more, as
         an ``RLock``, ends in ``RE_ENTRANT``.
     :param resource: name of the object waited on, equal for all waits on one object.
-    :param wakers: who can end it, as far as is known.
+    :param wakers: what can end it, as far as is known.
     :param needs: ``ONCE``: one waker, for good (event, future, end of a thread); ``EACH``: one
         waker for each wait (condition, queue, semaphore); ``ALL``: every waker (barrier, several).
     :param signals: of ``ONCE``: how many of them, or how often one, as of a number that grows.
-    :param forgets: of ``EACH``: what a waker does while nobody waits is lost (a condition that is
+    :param forgets: of ``EACH``: what a waker does while nothing waits is lost (a condition that is
         waited on without asking first).
     :param initial: of ``EACH``, how many waits end without a waker: the value of a semaphore, the
         room in a queue. With ``escapes`` runs before may have used them up.
     :param counted: a model has runs enough to use up ``initial``; no specification says so.
-    :param escapes: why somebody else might end it too, or who ends it is not known.
+    :param escapes: why unknown code might end it too, or what ends it is not known.
     :param conditional: true where a branch may skip the wait.
     :param only_if: what leads there, where a parameter decides and its default does not.
     :param assumed: the rule by which ``seconds`` was assumed.
@@ -107,10 +107,10 @@ class Blocking:
         reads that pipe.
     :param answer_to: the topic of the message on which another process must answer, by a
         subscription, before the wait ends.
-    :param unsent: the topics whose messages end it, where whoever publishes there in this program
+    :param unsent: the topics whose messages end it, if the publishing code of this program
         does not run before.
     :param at_end: of a thread, where the program ends the wait when its spin is over.
-    :param repeats: a loop of which nobody knows how often it goes round stands between one of the
+    :param repeats: a loop with an unknown number of rounds stands between one of the
         locks held and the wait.
     :param recursive: the loop is a function that calls itself: Python ends it by a RecursionError
         after ``RECURSION_LIMIT`` calls.
@@ -179,7 +179,7 @@ ADDS, TAKES = 'adds', 'takes'
 CANCELS = 'cancel'
 """The name of the change by which a timer ends itself after it has waited."""
 ABORTS = 'abort'
-"""The name of the change by which a callback tells a running goal to stop."""
+"""The name of the change by which a callback stops a running goal."""
 FOUND_NONE, FOUND_FALSE, FOUND_TRUE = 'None', 'false', 'true'
 FOUND_THIS, FOUND_OTHER = '== ', '!= '
 

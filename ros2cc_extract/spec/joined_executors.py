@@ -116,7 +116,7 @@ def _parts(whole: Spec, units: Sequence[Spec]) -> dict[str, _Part] | str:
 
 
 def _spins(callbacks: Iterable[Callback]) -> bool:
-    """Whether one of them serves others while it waits, of whatever executor these are."""
+    """Whether one of them serves others while it waits, of any executor."""
     blocks = (block for callback in callbacks for block in callback.blocking)
     return any(block.call.rpartition('.')[2].startswith('spin') for block in blocks)
 
@@ -145,7 +145,7 @@ def _reached(part: _Part, ahead: Mapping[_Part, set[_Part]]) -> set[_Part]:
 
 
 def _needs(spec: Spec, part_of: Mapping[str, _Part]) -> Iterator[tuple[_Part, _Part]]:
-    """Who needs whom: to be answered or woken, or to let go of a lock."""
+    """Which needs which: to be answered or woken, or to release a lock."""
     doers = _doers(spec)
     for doer in doers:
         mine = part_of.get(doer.name, doer.name)
@@ -162,7 +162,7 @@ def _doers(spec: Spec) -> tuple[Callback | Activity, ...]:
 
 
 def enders_of(block: Blocking, spec: Spec) -> Iterator[str]:
-    """Who has to run before a wait without a time-out is over, as far as the unit has them."""
+    """What has to run before a wait without a time-out is over, as far as the unit has it."""
     if block.seconds is not None:
         return
     yield from (waker.by for waker in block.wakers)
@@ -183,7 +183,7 @@ def _kept_by(doer: Callback | Activity) -> set[object]:
 
 
 def without_idle(spec: Spec) -> Spec:
-    """Whoever neither waits nor is waited for comes to its end, and takes nothing forever."""
+    """Remove what neither waits nor is waited for: it comes to its end, and keeps nothing."""
     needed = {
         name for doer in _doers(spec) for block in doer.blocking for name in enders_of(block, spec)
     }
@@ -244,7 +244,7 @@ def enough_threads(callbacks: Sequence[Callback], groups: Iterable[CallbackGroup
     """
     Count one for each run that may wait, one of a group, and one for all others.
 
-    Whoever is in no exclusive group runs for what arrives by itself, and for each who asks it.
+    A callback in no exclusive group runs for what arrives by itself, and for each caller.
     """
     exclusive = {group.name for group in groups if group.type is GroupType.EXCLUSIVE}
     runs: dict[object, int] = {}
@@ -255,7 +255,7 @@ def enough_threads(callbacks: Sequence[Callback], groups: Iterable[CallbackGroup
 
 
 def _runs(callback: Callback, callbacks: Sequence[Callback]) -> int:
-    """How often it may run at once, up to what is too much; who asks itself does so once."""
+    """How often it may run at once, up to what is too much; one that asks itself does so once."""
     number = 0
     left = [(callback, frozenset[str]())]
     while left and number <= MOST_THREADS:

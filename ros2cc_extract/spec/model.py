@@ -167,16 +167,16 @@ class Callback:
     :param function: qualified name of the function; ``None`` for a client without one.
     :param key: topic, service or action name; of a done-callback, that of the client it answers.
     :param period_s: seconds, of a timer; by hand also of what arrives for any other.
-    :param duration_s: seconds of one run, as somebody has written down by hand.
+    :param duration_s: seconds of one run, as written down by hand.
     :param count: how many such entities one creation place makes.
-    :param alternative: equal marks stand for branches of which only one is taken.
+    :param alternative: equal marks stand for exclusive branches.
     :param branch: which of these; callbacks of one branch are there together.
     :param takes_info: its function needs the information of a message, or of the call of a timer,
         which only some releases of rclpy pass.
-    :param askers: of a service, how many requests at a time may be on their way from the clients
-        in sight, where several may.
+    :param askers: of a service, how many requests at a time may be on their way from the known
+        clients, where several may.
     :param library: made by a library on the node's behalf (tf, message_filters …).
-    :param builtin: made by rclpy itself; nobody wrote it.
+    :param builtin: made by rclpy itself; no user wrote it.
     :param pieces: objects that it publishes as a whole while others change them piece by piece, or
         the other way round; of a change, ``update`` is true.
     :param unresolved: why the callback function or its node could not be followed.
@@ -272,13 +272,13 @@ class Activity:
     It is in no group and needs no worker; it waits, holds, reads and writes as callbacks do.
 
     :param kind: ``MAIN`` is the code of the program after it has started a thread that spins.
-    :param starts: who starts it and where, as wakers; empty for what runs from the beginning.
+    :param starts: what starts it and where, as wakers; empty for what runs from the beginning.
     :param count: how many of them may run at a time.
     :param conditional: a branch may skip its start.
     :param daemon: the program ends without waiting for it.
     :param loops: it never ends by itself.
     :param ends_first: the set-up waits for its end, before anything spins.
-    :param spins: where it runs the callbacks itself, if nobody else ever does, and one by one.
+    :param spins: where it runs the callbacks itself, if nothing else ever does, and one by one.
     :param source: where it is started; ``defined`` is its function.
     """
 
@@ -345,10 +345,10 @@ class CallbackGroup:
 
 
 OF_LOOP = 'asyncio'
-"""The library of groups that nobody makes: each is an entity that a loop serves run by run."""
+"""The library of groups without a maker: each is an entity that a loop serves run by run."""
 
 NO_EXECUTOR = 'no executor or spin found for this node'
-"""The reason why an executor is unknown where none is in sight."""
+"""The reason why an executor is unknown if the scan found none."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -402,7 +402,7 @@ class Spec:
     :param name: UPPAAL identifier; with several nodes the name of the unit.
     :param activities: threads of the program's own, and ``main``, that run beside the executor.
     :param set_up: waits of the code that sets the unit up or ends it: ``main``, constructors, what
-        nobody in sight calls. They hold nobody up but that code, and no model has them.
+        no known code calls. They hold up only that code, and no model has them.
     :param nodes: the ROS nodes served, in the order of ``add_node``.
     :param entry: where this set-up starts (``arm.py:main``); units of different entries of one
         file are alternatives of each other.
@@ -450,7 +450,7 @@ class Spec:
 
     @property
     def has_work(self) -> bool:
-        """Whether somebody wrote what it runs, and not rclpy all of it."""
+        """Whether a user wrote some of what it runs, not only rclpy."""
         return bool(self.activities) or any(not each.builtin for each in self.callbacks)
 
     def group_of(self, callback: Callback) -> CallbackGroup:

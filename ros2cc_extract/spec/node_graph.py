@@ -50,7 +50,7 @@ _WHAT = {
 @dataclass(frozen=True, kw_only=True)
 class Qos:
     """
-    What of a quality-of-service profile decides who is connected; times in seconds.
+    What of a quality-of-service profile decides which endpoints connect; times in seconds.
 
     :param reliability: ``reliable``, ``best_effort``; ``None`` where the middleware decides.
     :param durability: ``volatile``, ``transient_local``.
@@ -94,11 +94,11 @@ class Endpoint:
 @dataclass(frozen=True, kw_only=True)
 class Awaited:
     """
-    A service or action for which the set-up of a program waits without an end.
+    A service or action that the set-up of a program waits for without an end.
 
     :param client: place of the client of it.
     :param place: of the wait.
-    :param answers: it waits for an answer, not only until somebody offers it.
+    :param answers: it waits for an answer, not only until a node offers it.
     """
 
     client: Place
@@ -131,7 +131,7 @@ class NodeGraph:
     :param declared: those of them that have a type.
     :param open: why it may have more endpoints than these.
     :param awaits: what its program waits for before it is spun.
-    :param apart: why names and remaps that its process is told may not reach it.
+    :param apart: why names and remaps that its process is given may not reach it.
     """
 
     name: str | Unknown

@@ -11,7 +11,7 @@ def lets_one_wait(callback: Callback) -> bool:
     """
     True when a run looks at a state and claims it under one lock, waits, and gives it back.
 
-    ``with lock: if busy: return``, ``busy = True``; wait; ``with lock: busy = False``. Whoever
+    ``with lock: if busy: return``, ``busy = True``; wait; ``with lock: busy = False``. Code that
     looks again after the wait does not own the state: others may have changed it meanwhile.
     """
     waits = sorted(map(steps, callback.blocking))

@@ -1,4 +1,4 @@
-"""Asks queries that somebody has written: of a model file, or of the model of a unit."""
+"""Ask queries that a user has written: of a model file, or of the model of a unit."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.results.results import QueryResult, Verification, verification_of
 from ros2cc_extract.verify.results.run_evidence import Names
 from ros2cc_extract.verify.search.model_search import (
-    RunTeller,
+    RunDescriber,
     also_begun,
     ask_verifyta,
     check_queries,
@@ -43,7 +43,7 @@ def ask_unit(
     """
     Ask other queries than its own of a unit.
 
-    They are asked of the plain text, whatever the options say: the compact text keeps only what
+    They are always asked of the plain text: the compact text keeps only what
     its own queries can see.
 
     :param watched: what ``watcher.seen`` of the queries has seen, as of ``render_alone``.
@@ -135,9 +135,9 @@ def _asked(
     names: Names,
 ) -> Verification:
     result = check_queries(model, xml, queries, options, progress)
-    teller = RunTeller(model, xml, names)
+    describer = RunDescriber(model, xml, names)
     results = tuple(
-        result_of(answer, teller, None, answer.query.comment or answer.query.formula, ())
+        result_of(answer, describer, None, answer.query.comment or answer.query.formula, ())
         for answer in result.answers
     )
     return verification_of(model.name, result, results)

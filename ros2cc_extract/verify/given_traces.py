@@ -1,4 +1,4 @@
-"""Tells a run that UPPAAL saved or printed: found again in the model, replayed, put into words."""
+"""Put a run that UPPAAL saved or printed into words: find it in the model and replay it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ros2cc_extract.generator import build
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.verify.results.evidence import Evidence
-from ros2cc_extract.verify.results.run_evidence import Names, tell
+from ros2cc_extract.verify.results.run_evidence import Names, describe
 from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.uppaal.run import UppaalRun
 from ros2cc_extract.verify.uppaal.trace_xml import read_xml
@@ -25,9 +25,9 @@ _SOME = Query('E<> true', '', None)
 _ENDLESS = Query('E[] true', '', None)
 
 
-def retell_unit(closed: ClosedSpec, run: Path, options: Options) -> Evidence:
+def describe_unit_run(closed: ClosedSpec, run: Path, options: Options) -> Evidence:
     """
-    Tell a run of a unit's model, of the profile and text that the options name.
+    Put into words a run of a unit's model, of the profile and text that the options name.
 
     :raises InputError: when it cannot be read or is no run of that model.
     """
@@ -38,9 +38,9 @@ def retell_unit(closed: ClosedSpec, run: Path, options: Options) -> Evidence:
     return _retold(model, rendered.xml.encode(), run, Names.of(closed.spec))
 
 
-def retell_model(path: Path, run: Path) -> Evidence:
+def describe_model_run(path: Path, run: Path) -> Evidence:
     """
-    Tell a run of a model file.
+    Put into words a run of a model file.
 
     :raises InputError: when one cannot be read, or the run is not of the model.
     """
@@ -52,7 +52,7 @@ def _retold(model: Model, xml: bytes, path: Path, names: Names) -> Evidence:
     states = _read(path, model, source)
     query = _ENDLESS if states[-1:] and states[-1] in states[:-1] else _SOME
     found = replay_named(model, query, states, source)
-    return replace(tell(found, names), origin=UppaalRun(model, xml, found))
+    return replace(describe(found, names), origin=UppaalRun(model, xml, found))
 
 
 def _read(path: Path, model: Model, source: Place) -> tuple[NamedState, ...]:

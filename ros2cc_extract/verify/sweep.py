@@ -62,7 +62,7 @@ class Sweep:
 
     def least_threads(self) -> int | None:
         """
-        Give the smallest thread count from which on nobody waits forever.
+        Give the smallest thread count from which on nothing waits forever.
 
         Of the counts that were asked, with every arrival bound; ``None`` if none of them will
         do, or if the profile does not ask.
@@ -100,8 +100,8 @@ def run_sweep(
     """
     Verify ``unit`` at every point.
 
-    :param pool: who does it.
-    :param on_done: told how many points are done.
+    :param pool: what runs the points.
+    :param on_done: called with the number of points done.
     """
     tasks = [(unit, replace(policy, threads=p.threads), _at(options, p)) for p in settings]
     verifications = in_order(pool, _verify, tasks, on_done)
@@ -125,8 +125,8 @@ def _verify(task: tuple[Spec, Policy, Options]) -> Verification:
     unit, policy, options = task
     verification = verify_unit(close(unit, policy), options)
     # Runs are found out in this process, for the sake of those that another one waits for.
-    told = tuple(replace(result, run=result.evidence) for result in verification.results)
-    return replace(verification, results=told)
+    with_runs = tuple(replace(result, run=result.evidence) for result in verification.results)
+    return replace(verification, results=with_runs)
 
 
 def _turns(point: Point, before: Verification, after: Verification) -> Iterable[Turn]:

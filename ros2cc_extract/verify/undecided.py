@@ -24,7 +24,7 @@ def undecided_unit(closed: ClosedSpec, options: Options, reason: str) -> Verific
 
 
 def is_defect(error: Exception) -> bool:
-    """Whether verifying a unit has failed by our own fault, and nobody asks for the traceback."""
+    """Whether verifying a unit has failed by our own fault, and no traceback is asked for."""
     is_of_model = isinstance(error, ModelFormatError | CoreMismatchError)
     by_us = is_of_model or not isinstance(error, Ros2ccError)
     return by_us and not os.environ.get('ROS2CC_TRACEBACK')
@@ -32,14 +32,14 @@ def is_defect(error: Exception) -> bool:
 
 def failed_unit(closed: ClosedSpec, options: Options, error: Exception) -> Verification:
     """
-    Tell an error of our own model as a defect of this tool.
+    Report an error of our own model as a defect of this tool.
 
-    The model was made here, of a unit without holes, so nobody else can mend it.
+    The model was made here, of a unit without holes, so only we can mend it.
     """
-    told = ' '.join(str(error).split())[:LONGEST_MESSAGE]
-    defect = f'{type(error).__name__}: {told}'
+    message = ' '.join(str(error).split())[:LONGEST_MESSAGE]
+    defect = f'{type(error).__name__}: {message}'
     queries: tuple[Query, ...] = ()
-    with contextlib.suppress(Exception):  # of wrong queries none is shown; the defect is told
+    with contextlib.suppress(Exception):  # wrong queries are not shown; the defect is reported
         queries = _queries(closed, options)
     unit = _undecided(closed, options, queries, f'a defect of this tool: {defect}')
     return replace(unit, defect=defect)

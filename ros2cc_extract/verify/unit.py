@@ -38,7 +38,7 @@ def verify_unit(
     shelf: Shelf | None = None,
 ) -> Verification:
     """
-    Render, check and tell one unit.
+    Render, check and report one unit.
 
     :param shelf: answers that hold for parts of other units too; used and added to.
     """
@@ -118,7 +118,7 @@ def _as_asked(result: QueryResult, query: build.Query, left_out: str) -> QueryRe
 
 
 def _may_be_sliced(options: Options) -> bool:
-    """Whoever asks for a text of his own, or for so many states, gets the whole unit."""
+    """Whether a unit may be sliced: not with other texts or a limit of states."""
     return (
         options.profile is build.Profile.RCLPY
         and options.text is build.Text.COMPACT

@@ -147,7 +147,7 @@ WORDS_OF_ROS = re.compile(
 )
 LONGEST_MODULE = 500
 MOST_MODULES = 15
-"""Of one folder; more are rooms that have not been told apart yet."""
+"""Of one folder; more are rooms that have not been separated yet."""
 LONGEST_FUNCTION = 60
 
 
@@ -257,7 +257,7 @@ def test_the_interpreter_knows_nothing_of_ros() -> None:
 
 
 def words(path: Path) -> Iterator[str]:
-    """The names in a file and its texts, but for those that tell the reader something."""
+    """The names in a file and its texts, except those that say something to the reader."""
     tree = ast.parse(path.read_text(encoding='utf-8'))
     told = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
     for node in ast.walk(tree):

@@ -1,4 +1,4 @@
-"""Sources that are small, or nearly, and would cost whoever follows them without counting."""
+"""Sources that are small, or nearly, and cost too much when followed without counting."""
 
 from __future__ import annotations
 

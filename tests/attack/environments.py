@@ -45,7 +45,7 @@ class Surroundings:
     """
     One environment.
 
-    :param changes: whether the result may be another one, which then is told in one line.
+    :param changes: whether the result may be another one, which is then reported in one line.
     :param as_root: whether only root can make it.
     """
 

@@ -1,4 +1,4 @@
-"""Launch files that are small, or nearly, and would cost whoever follows them without counting."""
+"""Launch files that are small, or nearly, and cost too much when followed without counting."""
 
 from __future__ import annotations
 

@@ -117,7 +117,7 @@ def test_a_user_without_name_home_and_rights(command: str, folder: Path) -> None
     )
     assert_orderly(ended)
     assert ended.status == usual.status
-    if 'verify' not in command:  # which tells times
+    if 'verify' not in command:  # which prints times
         assert ended.out == usual.out
 
 
@@ -259,7 +259,7 @@ def test_little_of_everything(limit: str, repository: Path) -> None:
     repository.parent.chmod(0o755)
     limited = run_tool('.', '--no-cache', cwd=repository, prefix=LIMITS[limit])
     assert_orderly(limited)
-    if limit != 'memory':  # with little of it, less may be found out, and that is told
+    if limit != 'memory':  # with little of it, less may be found out, and that is reported
         usual = run_tool('.', '--no-cache', cwd=repository)
         assert (limited.status, limited.out) == (usual.status, usual.out)
 

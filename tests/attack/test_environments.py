@@ -80,7 +80,7 @@ def test_a_subcommand_in_an_environment(
 
 
 def _at_once(names: list[str]) -> list[str]:
-    """Whoever has become a stranger cannot become one again."""
+    """A process that has become another user cannot do so again."""
     strangers = [name for name in names if NOBODY[0] in ENVIRONMENTS[name].prefix]
     return [name for name in names if name not in strangers[1:]]
 

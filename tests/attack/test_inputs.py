@@ -25,7 +25,7 @@ CLASS = 'inputs'
     ],
 )
 def test_hostile_inputs(kind: str, first: int, rounds: int, tmp_path: Path, tally: Tally) -> None:
-    """Whoever wants one again: ``drawn(kind, number, canary)``."""
+    """To draw one again: ``drawn(kind, number, canary)``."""
     tally.kind = kind
     told = []
     with arena(tmp_path) as attacked:

@@ -72,7 +72,7 @@ def attacked(chance: random.Random, base: Path) -> tuple[str, str] | None:
     )
     what = f'{name}, {number.name} after {delay:.2f}, {whom.__name__}'
     if number is signal.SIGINT:
-        wait_for_the_tool(process)  # before, Python itself tells where it was
+        wait_for_the_tool(process)  # before, Python itself prints where it was
     time.sleep(delay * LATEST_S)
     if process.poll() is None:
         whom(process.pid, number)

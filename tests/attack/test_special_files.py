@@ -1,4 +1,4 @@
-"""What is no regular file, or too large, is told and neither waited for nor read."""
+"""What is no regular file, or too large, is reported and neither waited for nor read."""
 
 from __future__ import annotations
 
@@ -151,7 +151,7 @@ def test_a_file_that_grows_is_read_up_to_the_limit(tmp_path: Path) -> None:
     path = tmp_path / 'grows'
     path.write_bytes(b'x' * 1000)
     assert read_regular(path, 1000) == b'x' * 1000
-    for name in ('/proc/self/environ', '/proc/self/maps'):  # of which no size is told
+    for name in ('/proc/self/environ', '/proc/self/maps'):  # their sizes are not given
         with pytest.raises(OSError, match='larger than 10 bytes'):
             read_regular(Path(name), 10)
 

@@ -23,7 +23,7 @@ from ros2cc_extract.pipeline.check import Outcome, check_paths
 from ros2cc_extract.pipeline.config import load_config
 from ros2cc_extract.report.formats import WRITERS, write
 from ros2cc_extract.report.shared.checked import Checked
-from ros2cc_extract.report.text.check import Telling, print_check
+from ros2cc_extract.report.text.check import Presentation, print_check
 from ros2cc_extract.report.text.findings import Detail
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.ros.standard import standard_job
@@ -118,7 +118,7 @@ def told_as(form: str, stain: str) -> str:
     if form == 'text':
         console = console_for(shown)
         console.width = 10_000
-        print_check(checked, console, Telling(detail=Detail.VERBOSE))
+        print_check(checked, console, Presentation(detail=Detail.VERBOSE))
     else:
         shown.write(write(checked, form))
     return stream.getvalue()

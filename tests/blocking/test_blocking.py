@@ -119,7 +119,7 @@ def test_nothing_of_a_cell_is_left_out_of_its_model(cell: Cell) -> None:
     _, verification, _ = told(cell)
     reasons = [result.reason or '' for result in verification.results]
     left_out = [reason for reason in reasons if 'leaves out' in reason]
-    # A barrier makes four callbacks ask at once, whose end nobody else is to tell.
+    # A barrier makes four callbacks ask at once, whose end only they report.
     assert [reason for reason in left_out if 'Barrier.wait' not in reason] == []
 
 

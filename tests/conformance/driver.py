@@ -3,7 +3,7 @@ Runs random node programs on the real executors, one after the other in this pro
 
 ``python driver.py OUT SEED...`` under ``ros2cc-extract run --trace``, by an interpreter that has
 rclpy. Writes one line of JSON for each program: its seed, when it was over (what happens after
-that belongs to the tidying up), and what arrived for whom, where the program tells of it.
+that belongs to the tidying up), and what arrived for whom, if the program reports it.
 """
 
 from __future__ import annotations

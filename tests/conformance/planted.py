@@ -1,4 +1,4 @@
-"""Wrong models, made by changing the text of the right one; executions must tell them apart."""
+"""Wrong models, made by changing the text of the right one; executions must distinguish them."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def waiting_for_a_free_thread(text: str) -> str:
 
 
 def no_refused_starts(text: str) -> str:
-    """Whoever was queued will start."""
+    """What was queued will start."""
     return re.sub(
         r'(<label kind="guard"[^>]*>)([^<]*group_closed\[my_group\(\)\])(</label>\s*'
         r'<label kind="assignment"[^>]*>cb_queued)',
@@ -80,7 +80,7 @@ def _replaced(text: str, old: str, new: str) -> str:
 
 
 def served_by_kind(text: str) -> str:
-    """As the other executors do: subscriptions before services, whoever came first."""
+    """As the other executors do: subscriptions before services, in any order of arrival."""
     first = (
         '    int[0, NUM_EVENT - 1] first;\n'
         '    for (place : int[0, NUM_EVENT - 1])\n'
@@ -97,7 +97,7 @@ def newest_event_first(text: str) -> str:
 
 
 def one_event_for_each(text: str) -> str:
-    """An entity that waits to be served is not told again of what arrives."""
+    """An entity that waits to be served gets no second note of what arrives."""
     return _replaced(
         text,
         '    event_queue[event_count] = c;\n    event_count++;\n',
@@ -125,7 +125,7 @@ def _taking(event: str, moved: str, before: str) -> Callable[[str], str]:
     return edit
 
 
-#: Each with the program written by hand that tells it apart.
+#: Each with the program written by hand that distinguishes it.
 PLANTED = (
     (clients_after_services, -1),
     (group_closed_at_submission, -2),

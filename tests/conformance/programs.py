@@ -83,7 +83,7 @@ class Program:
     A node program.
 
     :param feeds: what arrives from outside: pause in seconds, then number of the entity.
-    :param tells_arrivals: all that arrives for subscriptions and services is told, and kept.
+    :param tells_arrivals: all that arrives for subscriptions and services is reported, and kept.
     """
 
     seed: int

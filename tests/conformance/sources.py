@@ -2,7 +2,7 @@
 Random programs as somebody would write them down: Python source, for the scanner and the hook.
 
 One class holds nodes, groups and entities, with a method for each callback. The program feeds
-itself, and is over when it has; whoever hangs then is left alone.
+itself, and is over when it has; what hangs then is ignored.
 """
 
 from __future__ import annotations

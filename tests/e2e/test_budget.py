@@ -1,4 +1,4 @@
-"""Time for all units of one call; and what is told when somebody ends it before."""
+"""Time for all units of one call; and what is reported when it is ended before."""
 
 from __future__ import annotations
 

@@ -271,8 +271,8 @@ def test_a_launch_file_that_starts_nothing_in_sight_is_undecided(run: Run, tmp_p
     (tmp_path / 'robot.launch.py').write_text('def main():\n    return 1\n')
     outcome = run('robot.launch.py')
     assert outcome.status == 3
-    assert outcome.err == 'nothing to check: the launch file starts no process in sight\n'
-    assert 'not followed: no function generate_launch_description is in sight' in outcome.out
+    assert outcome.err == 'nothing to check: the launch file starts no known process\n'
+    assert 'not followed: no function generate_launch_description is found' in outcome.out
 
 
 def test_a_unit_left_out_says_what_could_not_be_followed(run: Run, tmp_path: Path) -> None:
@@ -284,7 +284,7 @@ def test_a_unit_left_out_says_what_could_not_be_followed(run: Run, tmp_path: Pat
         'rclpy.spin(node)\n'
     )
     outcome = run('robot.py')
-    assert 'unit robot has no callback in sight, left out' in outcome.err
+    assert 'unit robot has no known callback, left out' in outcome.err
     assert outcome.out.splitlines()[0] == (
         'robot.py:5:1: note CC501: the node is passed to somewhere.fill, which is not scanned: '
         'unit robot is left out, and may have callbacks'

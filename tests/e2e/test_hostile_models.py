@@ -35,7 +35,7 @@ _, status, used = os.wait4(child, 0)
 os.write(int(sys.argv[1]), b'%d' % used.ru_maxrss)
 sys.exit(os.waitstatus_to_exitcode(status))
 """
-"""Small itself: what a process is told to have used at most counts in who started it."""
+"""Small itself: the peak memory of a process includes that of its parent."""
 
 
 def run(path: Path, *options: str) -> Ended:

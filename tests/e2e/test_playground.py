@@ -127,7 +127,7 @@ def shown(site: Path, tmp_path: Path) -> Iterator[Shown]:
 
 @pytest.mark.skipif(CHROMIUM is None, reason='there is no Chromium')
 def test_a_node_is_read_in_a_browser_and_never_run(shown: Shown, run: Run, tmp_path: Path) -> None:
-    # Of no text nothing is told: it would read as safe.
+    # An empty text gives no report: it would read as safe.
     typed = 'node.dispatchEvent(new Event("input")); document.getElementById("check").disabled'
     assert shown.page.value(f'kept = node.value; node.value = ""; {typed}')
     assert not shown.page.value(f'node.value = kept; {typed}')

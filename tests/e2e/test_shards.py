@@ -86,7 +86,7 @@ def test_a_part_does_not_judge_what_another_may_need(
 def test_nothing_is_verified_when_parts_are_put_together(
     run: Run, tree: Path, parts: list[Outcome], tmp_path: Path
 ) -> None:
-    """A verdict that a part was told is believed, also one that nobody would find."""
+    """A verdict of a part is believed, also one that no search would find."""
     paths = written(parts, tmp_path)
     for path in paths:
         data = json.loads(path.read_text())

@@ -25,7 +25,7 @@ def test_a_sweep_over_one_thread_says_why_all_columns_are_alike(run: Run) -> Non
     node = EXAMPLES / 'default_group_only' / 'node.py'
     outcome = run('verify', node, '--profile', 'rclpy', '--threads', '1..3')
     assert outcome.out.splitlines()[-1] == (
-        '  note: SingleThreadedExecutor runs callbacks on one thread, whatever number is asked; '
+        '  note: SingleThreadedExecutor runs callbacks on one thread, for any number given; '
         'to try a pool, write kind: MultiThreadedExecutor into the specification'
     )
 

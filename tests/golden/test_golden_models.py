@@ -1,4 +1,4 @@
-"""Whole models, byte for byte; ``README.md`` tells how to renew them."""
+"""Whole models, byte for byte; ``README.md`` says how to renew them."""
 
 import os
 from pathlib import Path

@@ -25,7 +25,7 @@ HOT = Path(__file__).with_name('programs') / 'hot.py'
 THREADS = 6
 # The machine may be busy: a thread that has not come round by then stands.
 STANDS_AFTER_S = 30.0
-# What the process has of its own, told by itself: names in __main__ and threads of Python.
+# What the process has of its own, reported by itself: names in __main__ and threads of Python.
 SCRIPT = """
 import sys
 def tell():

@@ -69,7 +69,7 @@ def _act(first: str, second: str, held: threading.Event, over: threading.Event) 
 
 
 def _ready(node: Node, verb: str, name: str) -> Callable[[], threading.Event]:
-    """Wait until it is there; give what asks for it, and tells of its answer."""
+    """Wait until it is there; give what asks for it, and reports its answer."""
     if verb == 'send':
         actions = ActionClient(node, Fibonacci, name)
         actions.wait_for_server()

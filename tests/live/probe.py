@@ -1,5 +1,5 @@
 """
-Oracle of the live tests: run a node and tell what its executors really hold.
+Oracle of the live tests: run a node and report what its executors really hold.
 
 Used as ``python probe.py FD NODE.py [ARGUMENTS]``: runs NODE.py as the main program and writes to
 file descriptor FD one line of JSON for each executor, when it first waits with nodes in it. Runs
@@ -46,7 +46,7 @@ def main() -> None:
 
 
 def tell_at_first_wait(descriptor: int) -> None:
-    """Make every executor tell what it holds before it first waits for work."""
+    """Make every executor report what it holds before it first waits for work."""
     original = Executor.wait_for_ready_callbacks
     told: list[Executor] = []
 

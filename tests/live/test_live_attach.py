@@ -1,4 +1,4 @@
-"""A process that was started without the hook tells what it holds, and goes on."""
+"""A process that was started without the hook reports what it holds, and goes on."""
 
 from __future__ import annotations
 

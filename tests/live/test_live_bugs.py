@@ -64,7 +64,7 @@ class Bug:
 
 
 def loses_parts(lines: Lines) -> bool:
-    """At each of the last reports more parts had come than all told of; some are on their way."""
+    """At each of the last reports more parts had come than all reported; some are on their way."""
     begun = told = 0
     missing = []
     for line in lines:

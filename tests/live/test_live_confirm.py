@@ -56,7 +56,7 @@ def test_a_lost_update_is_shown_by_its_values_and_the_twin_loses_none(
     (schedule,) = schedules(node, '7.1.6')
     shown = confirm(schedule, rclpy_python, LIMIT_S).judgement
     assert shown.outcome is Outcome.CONFIRMED
-    # Not in `self.count += 1`, where Python lets no other thread in, but where it is told and
+    # Not in `self.count += 1`, where Python lets no other thread in, but where it is reported and
     # set to 0: what was counted meanwhile is lost.
     values = r'count was (\d+) before line 25, another thread set it to \d+, and line 25 then to 0'
     assert re.fullmatch(values, shown.reason)

@@ -33,7 +33,7 @@ every_example = pytest.mark.parametrize('name', sorted(EXPECTED))
 
 @dataclass(frozen=True)
 class Observation:
-    """What the probe told of the executors of one process, and what the hook recorded of it."""
+    """What the probe reported of the executors of one process, and what the hook recorded."""
 
     told: tuple[Held, ...]
     recording: Recording

@@ -108,7 +108,7 @@ def test_nobody_in_sight_is_said(
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     status, _, err = told('system', '--running', '--python', rclpy_python, '--seconds', '1')
     assert status == 2
-    assert f'no node is in sight in ROS domain {domain} within 1 s' in err
+    assert f'no node is found in ROS domain {domain} within 1 s' in err
 
 
 def test_an_interpreter_without_rclpy_is_said() -> None:

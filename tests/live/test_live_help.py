@@ -39,7 +39,7 @@ def _program(name: str, text: str, shows: tuple[str, ...], patience_s: float) ->
 
 
 def unlike(run: RunForked) -> dict[str, list[str]]:
-    """What was said by those that do not do what is told of them."""
+    """What was said by those that do not behave as described."""
     all_of_them = list(programs())
     told = run(all_of_them)
     return {

@@ -1,5 +1,5 @@
 """
-What is told from rates is what rclpy counts: the load table, and paper case 2 at several rates.
+What rates show is what rclpy counts: the load table, and paper case 2 at several rates.
 
 Runs are counted, and compared with the share that ``load_of`` foretells.
 """
@@ -102,7 +102,7 @@ def counted(run_forked: RunForked, chosen: dict[str, Members], seconds: float) -
 
 
 def begins_in_order(python: str) -> bool:
-    """Tell whether threads of a pool begin in the order in which they were given their work."""
+    """Return whether threads of a pool begin in the order in which they were given their work."""
     asked = [python, '-c', 'import sys; sys.exit(sys.version_info >= (3, 13))']
     return subprocess.run(asked, check=False).returncode == 0
 

@@ -41,7 +41,7 @@ def test_exception_of_a_callback_ends_the_program_as_before(
     status = without.end()
     child = start(PROGRAMS / 'raising.py', threads, recorded_into=tmp_path, traced=True)
     assert child.end() == status == 1
-    # Two threads may raise it twice, and rclpy tells later of what nobody asked for.
+    # Two threads may raise it twice, and rclpy reports later what was not asked for.
     assert RAISED in child.lines
     assert RAISED in without.lines
     (recording,) = recordings_in(tmp_path)

@@ -2,7 +2,7 @@
 Systems of two and three processes, started for real as their launch files say.
 
 Those in which a circle of waits is found hang, and their mended twins go on. What each process is
-told comes from the system specification, so that its names, remaps and parameters hold too.
+set comes from the system specification, so that its names, remaps and parameters hold too.
 """
 
 from __future__ import annotations

@@ -210,7 +210,7 @@ def steps_of_the_model(unit: ClosedSpec, arrivals: int) -> set[Step]:
 
 
 def draw(number: int) -> tuple[Oracle, ClosedSpec]:
-    """One unit, told to both."""
+    """One unit, given to both."""
     random = Random(number)
     size, threads = random.randint(1, 3), random.randint(1, 3)
     groups = tuple(random.randrange(2) for _ in range(size))

@@ -108,7 +108,7 @@ def test_slices_with_every_kind_of_entity_agree_on_many() -> None:
 
 
 def test_a_run_of_a_slice_names_the_callbacks_that_were_asked_for() -> None:
-    """Slices of one shape are asked once; each run is told of its own slice."""
+    """Slices of one shape are asked once; each run is described for its own slice."""
     for _, unit in draw(range(3), callbacks=5):
         with no_unit_is_small():
             found = verify_unit(unit, SLICED)

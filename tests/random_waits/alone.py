@@ -3,7 +3,7 @@ What of a drawn program ever runs, as nobody but the program itself is there.
 
 A model takes it that requests and messages come from outside. No other process asks the services
 of a drawn program, or sends on its topic: a wait that only these would end does hang, and the
-model is asked of the program without them. Where whoever waits keeps those out that ask or send,
+model is asked without them. If a waiting callback keeps those out that ask or send,
 what they set off ends the wait only perhaps: it may be on its way when the wait begins.
 """
 

@@ -1,7 +1,7 @@
 """
 Runs a program of ``AsyncNode`` and writes what its callbacks did, as a trace.
 
-``python loop_tracer.py PROGRAM TRACE``. Each callback is told to begin and to end, and each await
+``python loop_tracer.py PROGRAM TRACE``. Begins and ends of callbacks are reported, and each await
 of it to suspend and to go on; a client, to take an answer. The standard library and rclpy alone.
 """
 
@@ -39,7 +39,7 @@ def note(name, number):
 
 
 class Steps:
-    """A coroutine of which each suspension is told."""
+    """A coroutine that reports each suspension."""
 
     def __init__(self, coroutine, number):
         self.coroutine, self.number = coroutine, number

@@ -3,7 +3,7 @@ Nodes that asyncio runs, good and bad: what was observed, and what is said of th
 
 The last lines of a node say what 10.0.10 and 11.0.0 do, which rules warn, and which promises are
 broken or undecided. A good one is never warned of and breaks no promise; of a bad one something is
-said. ``docs/asyncnode.md`` tells the same in a table.
+said. ``docs/asyncnode.md`` shows the same in a table.
 """
 
 from __future__ import annotations

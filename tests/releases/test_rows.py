@@ -1,5 +1,5 @@
 """
-The table of behaviours is what was observed, and whoever turns a row is caught.
+The table of behaviours is what was observed, and a reversed row is caught.
 
 Observations and traces lie here, so that no release is needed for that; on the wheels that are
 there, and on the release of the day, all is observed anew.

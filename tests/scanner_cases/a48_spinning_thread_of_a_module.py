@@ -1,4 +1,4 @@
-"""A thread that a module starts spins its executor once, whoever follows the module."""
+"""A thread that a module starts spins its executor once, no matter what follows the module."""
 
 import threading
 

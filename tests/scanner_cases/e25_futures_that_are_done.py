@@ -1,4 +1,4 @@
-"""EffectLog: the result of an unknown future is no wait where the text tells that it is done."""
+"""EffectLog: the result of an unknown future is no wait where the text shows that it is done."""
 # live: no, the module tools is not there
 import asyncio
 

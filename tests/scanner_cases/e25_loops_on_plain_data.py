@@ -1,4 +1,4 @@
-"""EffectLog: loops that wait for data which others write, or nobody, or somebody not in sight."""
+"""EffectLog: loops that wait for data which others write, or nobody, or unknown code."""
 
 import time
 

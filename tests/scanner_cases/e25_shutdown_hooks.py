@@ -1,4 +1,4 @@
-"""EffectLog: what waits for the end of a context runs in whoever shuts that down."""
+"""EffectLog: what waits for the end of a context runs in the code that shuts it down."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""EffectLog: what ends a wait is handed on in a function that nobody in sight calls."""
+"""EffectLog: what ends a wait is handed on in a function that no known code calls."""
 # live: no, it needs a library that is not there
 
 import rclpy

@@ -1,4 +1,4 @@
-"""Whoever takes an event out of a queue may set it: who ends the wait is not known."""
+"""Code that takes an event out of a queue may set it: what ends the wait is not known."""
 
 import queue
 import threading

@@ -1,4 +1,4 @@
-"""P20: the feedback function stands in a method that nobody in sight calls; so does the spin."""
+"""P20: the feedback function stands in a method that no known code calls; so does the spin."""
 # live: no, there is no program
 
 import rclpy

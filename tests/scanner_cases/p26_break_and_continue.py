@@ -1,5 +1,5 @@
 """P26: what a loop assigns before break or continue holds after it; its else may not run."""
-# live: no, the nodes in sight depend on the network
+# live: no, the nodes found depend on the network
 
 import rclpy
 from rclpy.node import Node

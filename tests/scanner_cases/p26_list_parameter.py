@@ -1,4 +1,4 @@
-"""P26: a loop over a parameter goes over its default, by an assumption that is told."""
+"""P26: a loop over a parameter goes over its default, by an assumption that is reported."""
 
 import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup

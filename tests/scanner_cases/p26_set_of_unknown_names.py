@@ -1,5 +1,5 @@
 """P26: names that could not be followed may be equal, so that a set of them has any size."""
-# live: no, how many names differ is told by the environment
+# live: no, how many names differ depends on the environment
 
 import os
 

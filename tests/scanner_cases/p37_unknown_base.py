@@ -1,4 +1,4 @@
-"""P37: a base class that is not in sight: a node, and the base may add more."""
+"""P37: an unknown base class: a node, and the base may add more."""
 # live: no, imports a package nobody has
 
 from some_vendor_package import VendorNode

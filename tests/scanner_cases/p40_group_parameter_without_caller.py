@@ -1,4 +1,4 @@
-"""P40, point 7: no caller in sight: the group is unresolved, never the default one."""
+"""P40, point 7: no known caller: the group is unresolved, never the default one."""
 # live: no, nobody makes the helper
 
 import rclpy

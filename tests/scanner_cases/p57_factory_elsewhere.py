@@ -1,4 +1,4 @@
-"""P57: a factory that is not in sight: the name is not resolved, the entity is sure."""
+"""P57: an unknown factory: the name is not resolved, the entity is sure."""
 # live: no, imports a package nobody has
 
 import rclpy

@@ -1,4 +1,4 @@
-"""Point 7: a group imported from a package that is not in sight."""
+"""Point 7: a group imported from a package that is not found."""
 # live: no, imports a package nobody has
 
 import rclpy

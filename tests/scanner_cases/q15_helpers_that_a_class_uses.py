@@ -1,4 +1,4 @@
-"""Point 15: helpers of the module whose one caller is a class that no program in sight makes."""
+"""Point 15: helpers of the module whose one caller is a class that no known program makes."""
 # live: no, the launcher is not installed
 
 import launcher

@@ -1,4 +1,4 @@
-"""Point 15: entities on an object of a class that is no node: told, though there is no unit."""
+"""Point 15: entities on an object of a class that is no node: reported, without a unit."""
 # live: no, it raises
 
 from std_msgs.msg import String

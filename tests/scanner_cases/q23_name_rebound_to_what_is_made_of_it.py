@@ -1,4 +1,4 @@
-"""Point 23: a function whose name a library's wrapper takes over; nobody in sight calls it."""
+"""Point 23: a function whose name a library's wrapper takes over; no known code calls it."""
 # live: no, there is no program
 
 import pytest

@@ -1,4 +1,4 @@
-"""Point 24: an update from the old value, and one that CPython does in one piece, are told apart."""
+"""Point 24: an update from the old value, and one that CPython does in one piece, are distinct."""
 
 import rclpy
 from rclpy.node import Node

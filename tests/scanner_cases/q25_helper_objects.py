@@ -1,4 +1,4 @@
-"""Point 25: helper objects of one class are told apart, and one made in a callback is private."""
+"""Point 25: helper objects of one class are distinct, and one made in a callback is private."""
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,4 @@
-"""Point 26: a method that only a later method calls has a caller in sight."""
+"""Point 26: a method that only a later method calls has a known caller."""
 # live: no, nothing calls the methods
 
 import rclpy

@@ -1,4 +1,4 @@
-"""Point 27: states that one line makes again and again are one, as that line tells."""
+"""Point 27: states that one line makes again and again are one, as that line shows."""
 
 import rclpy
 from rclpy.node import Node

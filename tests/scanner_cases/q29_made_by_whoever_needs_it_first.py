@@ -1,4 +1,4 @@
-"""P31: several methods that nobody in sight calls lead to what is made while it is missing: one."""
+"""P31: several methods that no known code calls lead to what is made while it is missing: one."""
 # live: no, nobody calls them
 
 import rclpy

@@ -1,5 +1,5 @@
-"""A node that is made only while there is none is one node, whoever asks for it first."""
-# live: no, nobody in sight turns the lamp on
+"""A node that is made only while there is none is one node, no matter what asks for it first."""
+# live: no, no known code turns the lamp on
 
 import threading
 

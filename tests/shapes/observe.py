@@ -2,7 +2,7 @@
 Run the nodes of the table on real rclpy and compare what they do with the table.
 
 ``python -m tests.shapes.observe --python .venv-jazzy/bin/python --as jazzy [SHAPE…]``. A node that
-works prints ``goes on`` again and again; what stands at a line is told by ``watched.py``.
+works prints ``goes on`` again and again; ``watched.py`` reports what stands at a line.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The page of the docs that tells of all shapes: ``python -m tests.shapes.page`` writes it."""
+"""The page of the docs that lists all shapes: ``python -m tests.shapes.page`` writes it."""
 
 from __future__ import annotations
 

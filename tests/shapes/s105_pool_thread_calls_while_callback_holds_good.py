@@ -1,4 +1,4 @@
-"""A task waits for an answer whose server takes the lock of who waits for the task. Mended."""
+"""A task waits for an answer whose server takes a lock held while the task is awaited. Mended."""
 
 import threading
 from concurrent.futures import ThreadPoolExecutor

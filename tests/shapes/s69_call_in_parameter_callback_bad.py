@@ -1,4 +1,4 @@
-"""A callback that checks parameters waits for an answer on the thread of who sets them."""
+"""A callback that checks parameters waits for an answer on the thread that sets them."""
 
 import rclpy
 from rcl_interfaces.msg import SetParametersResult

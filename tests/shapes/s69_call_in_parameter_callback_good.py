@@ -1,4 +1,4 @@
-"""A callback that checks parameters waits for an answer on the thread of who sets them. Mended."""
+"""A callback that checks parameters waits for an answer on the thread that sets them. Mended."""
 
 import rclpy
 from rcl_interfaces.msg import SetParametersResult

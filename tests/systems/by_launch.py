@@ -28,7 +28,7 @@ HERE = Path(__file__).parent
 SECOND = HERE / 'second'
 SECONDS = 25.0
 QUIET_S = 6.0
-"""Whoever says nothing for so long, at a period of 0.2 s, stands still."""
+"""What says nothing for so long, at a period of 0.2 s, stands still."""
 LAUNCH = """\
 import sys
 from launch import LaunchDescription, LaunchService

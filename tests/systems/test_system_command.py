@@ -125,8 +125,8 @@ def test_nothing_in_sight_is_undecided(tmp_path: Path) -> None:
     path.write_text('<launch><node pkg="elsewhere" exec="e"/></launch>')
     out, err = io.StringIO(), io.StringIO()
     assert main(['check', '-q', '--no-cache', str(path)], out, err) == 3
-    assert err.getvalue() == 'nothing to check: of 1 processes none has a callback in sight\n'
-    assert 'process e is outside: package elsewhere is not in sight' in out.getvalue()
+    assert err.getvalue() == 'nothing to check: none of 1 processes has a known callback\n'
+    assert 'process e is outside: package elsewhere is not found' in out.getvalue()
 
 
 def test_an_argument_needs_a_launch_file(tmp_path: Path) -> None:

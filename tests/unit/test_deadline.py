@@ -24,7 +24,7 @@ def test_a_limit_that_never_comes_sets_no_alarm() -> None:
 
 @pytest.fixture
 def _slow_collector() -> Iterator[None]:
-    """The alarm rings while somebody is told of the garbage collector's work."""
+    """The alarm rings during a callback of the garbage collector."""
 
     def hear(phase: str, info: dict[str, int]) -> None:
         begun = time.monotonic()

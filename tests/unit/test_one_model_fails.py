@@ -1,4 +1,4 @@
-"""A unit whose model has an error of ours: it is told, and the other units are judged."""
+"""A unit whose model has an error of ours: it is reported, and the other units are judged."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ class Reducer:
         return forget(self.forgotten, state, edges) if self.forgotten else state
 
     def canonical(self, state: State) -> State:
-        """Return the one state that stands for all that differ in who is who."""
+        """Return the one state that stands for all that differ only by an exchange of members."""
         for family in self.families:
             state = self._sorted(family, state)
         return state

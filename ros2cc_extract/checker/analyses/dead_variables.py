@@ -4,7 +4,7 @@ Dead variables: values that nothing reads before they are written again, by proc
 A process is unfolded into nodes: its location and the values of its *controls*, variables that
 only it writes. At each node a backward analysis finds variables that neither this process nor a
 predicate can read before they are overwritten. They are set to their initial value when the
-process arrives there, which makes states equal that no query and no step tells apart
+process arrives there, which makes states equal that no query and no step distinguishes
 (docs/checker.md, "Dead variables").
 """
 
@@ -82,7 +82,7 @@ def forget(forgotten: Sequence[Forgetting], state: State, edges: Edges) -> State
 
 
 class _Usage:
-    """Who reads and writes which variable."""
+    """Which process reads and writes which variable."""
 
     def __init__(self, network: Network, predicates: Sequence[Expr]) -> None:
         self.network = network

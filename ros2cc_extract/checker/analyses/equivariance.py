@@ -1,7 +1,7 @@
 """
 Whether exchanging two processes of a template, and all that is theirs, leaves a network as it is.
 
-Two sorts of values are told apart: plain ones, and *names* of processes, which may only be
+There are two sorts of values: plain ones, and *names* of processes, which may only be
 stored, compared for equality, and used as an index into what is each process's own (scalarsets:
 Ip and Dill, "Better verification through symmetry"). The checks are on syntax, up to the order
 of the operands of ``&&``, ``||`` and ``+``, into which quantifiers over all processes unfold.
@@ -89,7 +89,7 @@ class Exchange:
     """
     The exchange of two processes.
 
-    :param names: how other processes and arrays call the two; None if nobody does.
+    :param names: how other processes and arrays call the two; None if none does.
     :param slots: variables that change places, each to the other.
     :param channels: the same for channels.
     :param pointers: variables whose value is a name.

@@ -45,7 +45,7 @@ class Family:
     """
     Processes that can be exchanged.
 
-    :param names: how arrays and pointers call each; empty if nobody calls them.
+    :param names: how arrays and pointers call each; empty if none calls them.
     :param parts: the variables that are each one's own, in the same order for all.
     :param pointers: variables outside the parts that hold the name of one.
     :param picks: functions that choose the lowest name among some, by number.
@@ -131,7 +131,7 @@ def _family(first: int, exchanges: Sequence[_Proven]) -> Family:
 
 
 class _Finder:
-    """Proposes exchanges and proves them; knows who mentions what."""
+    """Proposes exchanges and proves them; knows which process mentions what."""
 
     def __init__(self, network: Network, predicates: Sequence[Expr]) -> None:
         self._network = network
@@ -313,7 +313,7 @@ class _Finder:
                         found.setdefault(channel, []).append((number, edge))
         return found
 
-    # -- who mentions what ---------------------------------------------------------------
+    # -- mentioned names ---------------------------------------------------------------
     def _mentioned(self, process: int) -> _Mentions:
         if process not in self._mentions:
             self._mentions[process] = _mentions(self._network, process)

@@ -218,7 +218,7 @@ class SourceWriter:
         return [
             *lines,
             f'def _o{number}(*arguments):',
-            # The outermost call counts itself, but is none inside another.
+            # The outermost call counts itself, but is not inside another.
             f'{INDENT}_passes[0] = {MAX_LOOP_STEPS + is_called}',
             f'{INDENT}return _f{number}(*arguments)',
         ]

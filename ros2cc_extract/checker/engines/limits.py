@@ -79,7 +79,7 @@ def memory_mb() -> float:
 
 
 def peak_mb() -> float:
-    """Return the highest resident memory of this process so far; 0 where nobody counts it."""
+    """Return the highest resident memory of this process so far; 0 if it is not counted."""
     if resource is None:
         return 0.0
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024

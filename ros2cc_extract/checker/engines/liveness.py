@@ -152,7 +152,7 @@ def shortest_path(
 @dataclass(frozen=True)
 class Movers:
     """
-    Who moves: for each label the bits of the processes that take part.
+    What moves: for each label the bits of the processes that take part.
 
     :param all: bits of all processes.
     """

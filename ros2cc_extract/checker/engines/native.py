@@ -163,9 +163,9 @@ class _Question:
         self.is_full = result.is_full
         if result.is_full:
             watching.reason = watching.reason or states_reason(max_states)
-        return self._told(result)
+        return self._converted(result)
 
-    def _told(self, result: _core.Result) -> SearchResult:
+    def _converted(self, result: _core.Result) -> SearchResult:
         answers = _Answers(self._network, self._properties, self._watching)
         reached = map(answers.goal, self._reachability, result.goals)
         outcomes = dict(zip(self._reachability, reached, strict=True))

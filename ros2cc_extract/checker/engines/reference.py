@@ -83,7 +83,7 @@ class _Predicates:
         self._support = 0
         for expr in self.exprs:
             self._support |= self.layout.support(expr)
-        # One bit above the state tells deadlocks apart, where that matters.
+        # One bit above the state marks deadlocks, where that matters.
         reads_deadlock = any(mentions_deadlock(expr) for expr in self.exprs)
         self._dead_bit = 1 << self.layout.bits if reads_deadlock else 0
 

@@ -1,7 +1,7 @@
 """
-The words in which a checker is asked and answers, for those who do not ask it themselves.
+Queries and answers of a checker, for modules that do not run one themselves.
 
-Whoever only says which engine is wanted, or reads a kept verdict, starts faster without a checker.
+Code that only names an engine, or reads a kept verdict, starts faster without a checker.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Fairness(Enum):
 
 
 class EngineKind(Enum):
-    """Who searches; AUTO is the native core where it is built."""
+    """The engine that searches; AUTO is the native core if it is built."""
 
     AUTO = 'auto'
     REFERENCE = 'reference'

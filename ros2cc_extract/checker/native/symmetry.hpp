@@ -45,7 +45,7 @@ class Symmetry : public PickJudge {
   Last last() const { return last_; }
   void back_to(const Last& last) { last_ = last; }
 
-  // A pick takes the lowest name. That does not tell members apart if there is but one to take,
+  // A pick takes the lowest name. That does not distinguish members if there is but one to take,
   // if the choice is that of the pick before, or if all are alike and none takes part in the
   // step: then an exchange that changes nothing else makes any of them the lowest.
   void picked(const Pick& pick, uint64_t names) override {

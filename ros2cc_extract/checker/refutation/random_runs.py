@@ -58,7 +58,7 @@ def dive(
     for number, (query, prop) in enumerate(zip(queries, properties, strict=True)):
         path = paths.get(number)
         if path is not None:
-            replayer.run(prop, path, None)  # a verdict that no run shows is none
+            replayer.run(prop, path, None)  # a verdict needs a run that shows it
         answers.append(
             Answer(
                 query=query,
@@ -133,7 +133,7 @@ class _Divers:
         self._start = self._layout.pack(Semantics(network).initial())
         self._plans: dict[int, Plan] = {}
         self._chance = random.Random(0)
-        # What the last state of a run shows: that nothing moves on, whatever is claimed to come.
+        # What the last state of a run shows: nothing moves on, so no claimed state comes.
         self._ends = {QueryKind.INVARIANT: None, QueryKind.LEADS_TO: End.DEADLOCK}
         self._kinds = [prop.kind for prop in properties]
         self._open = {i for i, kind in enumerate(self._kinds) if kind in self._ends}

@@ -49,12 +49,12 @@ def refute(
         found = search.from_state(path[-1], [waypoint])[0]
         if found.verdict is Verdict.UNDECIDED:
             reason = found.reason or ''
-            return search.told([_open(query, reason) for query in queries])
+            return search.result_of([_open(query, reason) for query in queries])
         if found.path is not None:
             path = (*path, *found.path.states[1:])
     outcomes = search.from_state(path[-1], [query.formula for query in queries])
     replayer = Replayer(model.elaboration, model.network, Fairness.NONE)
-    return search.told(
+    return search.result_of(
         [
             _answer(model, replayer, query, path, outcome)
             for query, outcome in zip(queries, outcomes, strict=True)
@@ -78,7 +78,7 @@ def _answer(
         None if cycle is None else cycle + len(path) - 1,
         outcome.path.end,
     )
-    replayer.run(prop, whole, None)  # a verdict that no run shows is none
+    replayer.run(prop, whole, None)  # a verdict needs a run that shows it
     replay = partial(replayer.run, prop, whole, None)
     return Answer(
         query=query,
@@ -115,7 +115,7 @@ class _Search:
         self._transitions += result.transitions
         return result.outcomes
 
-    def told(self, answers: Sequence[Answer]) -> CheckResult:
+    def result_of(self, answers: Sequence[Answer]) -> CheckResult:
         """The answers, with what it took."""
         return CheckResult(
             engine=self._engine.name,

@@ -44,7 +44,7 @@ class Answer:
         return self.replay() if self.replay else None
 
     def shown(self) -> Run:
-        """Give the path to whoever asked the opposite; there must be one."""
+        """Return the path for the opposite query; there must be one."""
         assert self.path is not None
         return self.path
 

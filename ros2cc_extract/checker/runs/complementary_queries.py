@@ -1,5 +1,5 @@
 """
-Queries that deny each other: ``A[] not (p)`` rules out ``E<> (p)``, so one search tells both.
+Queries that deny each other: ``A[] not (p)`` rules out ``E<> (p)``: one search answers both.
 
 A unit asks both of every two callbacks, which are most of its queries.
 """
@@ -43,7 +43,7 @@ def twins_of(formulas: Sequence[str]) -> dict[int, int]:
 
 
 def _is_one_bracket(rest: str) -> bool:
-    """Tell whether the bracket that is open before ``rest`` is closed by its end and no sooner."""
+    """Return whether the bracket open before ``rest`` is closed by its end and no sooner."""
     if not rest.endswith(')') or '/*' in rest or '//' in rest:
         return False
     depth = 1
@@ -55,10 +55,10 @@ def _is_one_bracket(rest: str) -> bool:
 
 
 def with_twins(
-    queries: Sequence[Query], told: Sequence[Answer], twins: dict[int, int]
+    queries: Sequence[Query], reported: Sequence[Answer], twins: dict[int, int]
 ) -> tuple[Answer, ...]:
     """Put the answers of queries that were not searched for between those that were."""
-    rest = iter(told)
+    rest = iter(reported)
     answers: list[Answer] = []
     for number, query in enumerate(queries):
         if number not in twins:

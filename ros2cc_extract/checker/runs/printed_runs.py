@@ -2,7 +2,7 @@
 Runs that another program printed, found again among the transitions of a model.
 
 Such a run names locations and variables and may leave some out. It is walked through the plain
-semantics and then replayed like a path of our own, before anybody sees it.
+semantics and then replayed like a path of our own, before it is shown.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ def _walk(
 
 
 def _endless(semantics: Semantics, states: list[State], source: Place) -> StatePath:
-    """Tell how a run ends that should go on forever."""
+    """Return how a run ends that should go on forever."""
     last = states[-1]
     if last in states[:-1]:
         return StatePath(tuple(states[:-1]), cycle_start=states.index(last))

@@ -1,5 +1,5 @@
 """
-Replays a path under the plain semantics before anybody sees it.
+Replay a path under the plain semantics before it is shown.
 
 An engine returns states; the edges between them, the formulae along them and the way the path
 ends are established here anew. A disagreement is a defect of this tool.
@@ -61,7 +61,7 @@ class Replayer:
         Return the path with its edges and names, in states of the model as it stands.
 
         :param reduce: what the search did to each state it reached; the path is in such states.
-        :raises CoreMismatchError: the path is none of the model, or does not show what it should.
+        :raises CoreMismatchError: the path is not in the model, or does not show what it should.
         """
         if path.states[0] != self._semantics.initial():
             raise _mismatch('it does not start in the initial state')
@@ -72,7 +72,7 @@ class Replayer:
         if path.cycle_start is not None:
             self._go_round(walk, (*path.states[stem + 1 :], path.states[stem]), reduce)
         self._check_formulas(prop, walk.real)
-        return self._told(walk.real)
+        return self._run_of(walk.real)
 
     def _successors(self, state: State) -> list[Transition]:
         # The paths of one search share most of their beginnings.
@@ -110,7 +110,7 @@ class Replayer:
         """
         Go round a cycle until a round ends where one began.
 
-        After one round, values that nobody reads may differ from those at its start, and
+        After one round, values that are never read may differ from those at its start, and
         processes that are alike may have changed places.
         """
         begun: dict[tuple[State, State], int] = {}
@@ -177,7 +177,7 @@ class Replayer:
         raise _mismatch('it does not end as a maximal path')
 
     # -- names ---------------------------------------------------------------------------
-    def _told(self, real: _RealPath) -> Run:
+    def _run_of(self, real: _RealPath) -> Run:
         steps = tuple(
             self._step(state, move) for state, move in zip(real.states, real.moves, strict=False)
         )

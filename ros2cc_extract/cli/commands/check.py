@@ -139,7 +139,7 @@ def _shard(text: str) -> Shard:
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
-    from ros2cc_extract.cli.shared.releases import tell_releases
+    from ros2cc_extract.cli.shared.releases import report_releases
     from ros2cc_extract.pipeline.check import check_paths
     from ros2cc_extract.pipeline.config import load_config
     from ros2cc_extract.pipeline.sources import has_unread
@@ -155,7 +155,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
             known = _known(args, config, job, stderr)
             job = replace(job, known=known, spent_s=time.monotonic() - begun)
             outcome = check_paths(job, stderr)
-    except KeyboardInterrupt:  # before there was anything to tell
+    except KeyboardInterrupt:  # before there was anything to report
         if not termination.is_asked:
             raise
         print('interrupted', file=stderr)
@@ -164,7 +164,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         from ros2cc_extract.cli.shared.on_node import with_outcomes
 
         outcome = replace(outcome, findings=with_outcomes(outcome, args, release, stderr))
-    tell_releases((job.assumptions.rclpy, *(unit.rclpy for unit in outcome.units)), stderr)
+    report_releases((job.assumptions.rclpy, *(unit.rclpy for unit in outcome.units)), stderr)
     if outcome.interrupted and args.write_baseline is not None:
         raise KeyboardInterrupt  # a baseline accepts all of today, or nothing
     if args.output is not None:
@@ -172,12 +172,12 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     if args.write_baseline is not None:
         _write_baseline(args.write_baseline, outcome, job, stderr)
         return EXIT_CLEAN
-    _tell(args, outcome, job, stdout, time.monotonic() - begun)
+    _print(args, outcome, job, stdout, time.monotonic() - begun)
     if outcome.interrupted:
         print('interrupted: what was not verified yet is undecided', file=stderr)
         return termination.status
     if not outcome.units and job.sees_all and not has_unread(outcome.extraction.diagnostics):
-        return _tell_nothing_judged(args, outcome, stderr)
+        return _report_nothing_judged(args, outcome, stderr)
     return _status(args, outcome)
 
 
@@ -282,7 +282,7 @@ def _write_baseline(path: Path, outcome: Outcome, job: Job, stderr: TextIO) -> N
     print(f'wrote {path}; use it with --baseline {path}', file=stderr)
 
 
-def _tell(
+def _print(
     args: argparse.Namespace, outcome: Outcome, job: Job, stdout: TextIO, seconds: float
 ) -> None:
     from ros2cc_extract.cli.shared.checked import checked_of
@@ -302,12 +302,12 @@ def _tell(
 def _print_text(
     args: argparse.Namespace, checked: Checked, stdout: TextIO, seconds: float
 ) -> None:
-    from ros2cc_extract.report.text.check import Telling, print_check
+    from ros2cc_extract.report.text.check import Presentation, print_check
     from ros2cc_extract.report.text.findings import Detail
     from ros2cc_extract.report.text.style import console_for
 
     detail = Detail.QUIET if args.quiet else Detail.VERBOSE if args.verbose else Detail.USUAL
-    how = Telling(
+    how = Presentation(
         detail=detail,
         paths=shlex.join(str(path) for path in args.paths),
         seconds=seconds,
@@ -315,16 +315,16 @@ def _print_text(
     print_check(checked, console_for(stdout), how)
 
 
-def _tell_nothing_judged(args: argparse.Namespace, outcome: Outcome, stderr: TextIO) -> int:
+def _report_nothing_judged(args: argparse.Namespace, outcome: Outcome, stderr: TextIO) -> int:
     """Zero problems of nothing may read as safe; of a system that is undecided."""
     status = _status(args, outcome)
     if outcome.system is None:
         print('nothing to check: no rclpy node with a callback found', file=stderr)
         return status
     number = len(outcome.system.processes)
-    told = f'of {number} processes none has a callback in sight'
-    told = told if number else 'the launch file starts no process in sight'
-    print(f'nothing to check: {told}', file=stderr)
+    reason = f'none of {number} processes has a known callback'
+    reason = reason if number else 'the launch file starts no known process'
+    print(f'nothing to check: {reason}', file=stderr)
     return EXIT_UNDECIDED if status == EXIT_CLEAN else status
 
 

@@ -47,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
-    from ros2cc_extract.cli.shared.releases import tell_releases
+    from ros2cc_extract.cli.shared.releases import report_releases
     from ros2cc_extract.conform.search import STATES
     from ros2cc_extract.conform.trace import read_traces
     from ros2cc_extract.conform.unit import compare, pair_units
@@ -57,7 +57,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.text_escaping import one_line
 
     traces = read_traces(args.trace)
-    tell_releases((trace.rclpy for trace in traces), stderr)
+    report_releases((trace.rclpy for trace in traces), stderr)
     units = load_units(args.spec, stderr)
     pairs = list(pair_units(traces, units))
     if not pairs:

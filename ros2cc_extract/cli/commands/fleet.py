@@ -92,7 +92,7 @@ def _check(
     results: dict[Repository, Result],
     meter: Meter,
 ) -> None:
-    """Check what has changed; ``results`` holds what is known even when somebody ends it."""
+    """Check what has changed; ``results`` holds what is known even if it is interrupted."""
     from ros2cc_extract.cli.shared.output import write_atomically
     from ros2cc_extract.deadline import deadline_in
     from ros2cc_extract.jobs.pools import Processes
@@ -182,6 +182,6 @@ def _print(
     rows = [results.get(member, Result(member, State.LEFT)) for member in members]
     found: Counter[str] = sum((row.found for row in rows), Counter())
     done = sum(row.state in (State.CHECKED, State.UNCHANGED) for row in rows)
-    told = [(row.repository.name, row.summary, row.state.value) for row in rows]
+    reported = [(row.repository.name, row.summary, row.state.value) for row in rows]
     errors = [f'{row.repository.name}: {row.error}' for row in rows if row.error]
-    print_fleet(told, errors, fleet_line(done, len(members), found), console_for(stdout))
+    print_fleet(reported, errors, fleet_line(done, len(members), found), console_for(stdout))

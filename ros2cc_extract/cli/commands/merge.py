@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('-o', '--output', type=Path, metavar='FILE', help='write to FILE instead')
 
 
-def _tell_conflicts(pair: tuple[Spec, Spec], args: argparse.Namespace, stderr: TextIO) -> None:
+def _report_conflicts(pair: tuple[Spec, Spec], args: argparse.Namespace, stderr: TextIO) -> None:
     """Say which known facts differ: the first side's are kept."""
     from ros2cc_extract.compare.merge import Kind, diff_units
 
@@ -33,11 +33,11 @@ def _tell_conflicts(pair: tuple[Spec, Spec], args: argparse.Namespace, stderr: T
                 (args.static, found.left, found.left_place),
                 (args.live, found.right, found.right_place),
             )
-            told = ', '.join(
+            both = ', '.join(
                 f'{value} in {file}{f" ({place})" if place else ""}'
                 for file, value, place in sides
             )
-            what = f'{found.unit}: {found.fact} of {found.subject}: {told}; the first is kept'
+            what = f'{found.unit}: {found.fact} of {found.subject}: {both}; the first is kept'
             print(f'ros2cc-extract: {what}', file=stderr)
 
 
@@ -54,7 +54,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         what = f'no unit of {args.static} is one of {args.live}; all are written as they are'
         print(f'ros2cc-extract: {what}', file=stderr)
     for pair in pairs:
-        _tell_conflicts(pair, args, stderr)
+        _report_conflicts(pair, args, stderr)
     merged = [merge_units(*pair) for pair in pairs]
     write_text(write_specs([*merged, *only_static, *only_live]), args.output, stdout)
     return EXIT_CLEAN

@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.cli.shared.output import write_atomically
-    from ros2cc_extract.cli.shared.releases import tell_releases
+    from ros2cc_extract.cli.shared.releases import report_releases
     from ros2cc_extract.generator.build import Profile, Text, render
     from ros2cc_extract.pipeline.sources import load_units
     from ros2cc_extract.spec.close import close
@@ -44,7 +44,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     closed_units = [
         close(unit, policy) for unit in load_units(args.path, stderr, lists_builtin=args.builtin)
     ]
-    tell_releases((closed.spec.rclpy for closed in closed_units), stderr)
+    report_releases((closed.spec.rclpy for closed in closed_units), stderr)
     folders = unit_folders([closed.spec.name for closed in closed_units], args.output)
     for closed, folder in zip(closed_units, folders, strict=True):
         rendered = render(

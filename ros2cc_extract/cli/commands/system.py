@@ -20,7 +20,7 @@ EPILOG = """\
 PATH is a launch file (Python, XML or YAML; several are one system), a folder of code (one system
 for each launch file in it, or one of all its programs), a folder of recordings as `env` and
 `collect` have it, or a system specification. --running is what runs now, by the ROS graph.
-Of several of these the facts are joined, and what one of them has and another has not is told on
+The facts of several of these are joined, and what one has and another lacks is reported on
 standard error.
 """
 
@@ -77,7 +77,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
 
 def _joined(sides: Sequence[Side], stderr: TextIO) -> System:
-    """All sides as one; what is missing from one and in another is told."""
+    """Merge all sides; report what is missing from one and in another."""
     from ros2cc_extract.compare.system_merge import merge_systems
     from ros2cc_extract.compare.systems import diff_systems
     from ros2cc_extract.report.text.diff import difference_lines

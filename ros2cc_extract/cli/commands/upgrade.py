@@ -37,13 +37,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
-    from ros2cc_extract.cli.shared.releases import tell_releases
+    from ros2cc_extract.cli.shared.releases import report_releases
     from ros2cc_extract.findings.upgrade import changes, not_compared
     from ros2cc_extract.pipeline.sources import has_unread, nothing_read
     from ros2cc_extract.spec.releases.lines import newest_of
 
     old, new = newest_of(args.from_release), newest_of(args.to_release)
-    tell_releases((old, new), stderr)
+    report_releases((old, new), stderr)
     before, after = _checked(args, old, stderr), _checked(args, new, stderr)
     _print_unread(after, stderr)
     if nothing_read(args.paths, after.extraction):

@@ -99,8 +99,8 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         _print_text(verifications, args, stdout)
     for verification in verifications:
         if verification.defect:
-            told = f'{verification.model} is not verified: {verification.defect}'
-            print(f'{told}; ROS2CC_TRACEBACK=1 shows where', file=stderr)
+            described = f'{verification.model} is not verified: {verification.defect}'
+            print(f'{described}; ROS2CC_TRACEBACK=1 shows where', file=stderr)
     if any(verification.defect for verification in verifications):
         return EXIT_ERROR
     undecided = any(verification.is_undecided for verification in verifications)
@@ -146,16 +146,16 @@ def _under_releases(closed: ClosedSpec, options: Options) -> Iterator[tuple[Clos
         yield closed, ''
         return
     for setting in alike:
-        told = f'rclpy is that of {where(setting.releases, rows)}'
+        described = f'rclpy is that of {where(setting.releases, rows)}'
         spec = replace(closed.spec, rclpy=setting.release)
-        assumptions = (*closed.assumptions, told)
+        assumptions = (*closed.assumptions, described)
         yield replace(closed, spec=spec, assumptions=assumptions), f'@{setting.release}'
 
 
 def _verified(
     closed: ClosedSpec, options: Options, progress: OnProgress | None, shelf: Shelf
 ) -> Verification:
-    """One unit; an error of its model is told beside the other units."""
+    """Verify one unit; an error of its model is reported beside the other units."""
     from ros2cc_extract.verify.undecided import failed_unit, is_defect
     from ros2cc_extract.verify.unit import verify_unit
 
@@ -177,26 +177,28 @@ def _queries(args: argparse.Namespace) -> list[Query]:
 
 
 def _units(args: argparse.Namespace, stderr: TextIO) -> Iterator[ClosedSpec]:
-    from ros2cc_extract.cli.shared.releases import tell_releases
+    from ros2cc_extract.cli.shared.releases import report_releases
     from ros2cc_extract.pipeline.sources import load_units
     from ros2cc_extract.spec.close import close
 
     units = load_units(args.path, stderr, lists_builtin=args.builtin)
     closed = [close(unit, policy_of(args)) for unit in units]
-    tell_releases((each.spec.rclpy for each in closed), stderr)
+    report_releases((each.spec.rclpy for each in closed), stderr)
     yield from closed
 
 
 def _replay(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.report.text.style import console_for
     from ros2cc_extract.report.text.verdicts import print_run
-    from ros2cc_extract.verify.given_traces import retell_model, retell_unit
+    from ros2cc_extract.verify.given_traces import describe_model_run, describe_unit_run
 
     if args.path.suffix == MODEL_SUFFIX:
-        told = [retell_model(args.path, args.replay)]
+        described = [describe_model_run(args.path, args.replay)]
     else:
-        told = [retell_unit(u, args.replay, options_of(args)) for u in _units(args, stderr)]
-    for evidence in told:
+        described = [
+            describe_unit_run(u, args.replay, options_of(args)) for u in _units(args, stderr)
+        ]
+    for evidence in described:
         print_run(evidence, console_for(stdout), changes=args.trace)
     return EXIT_CLEAN
 

@@ -79,7 +79,7 @@ def add_unit_arguments(parser: argparse.ArgumentParser, *, ranges: bool = False)
         '--threads',
         type=_range if ranges else _single,
         metavar='N|A..B' if ranges else 'N',
-        help='number of executor threads, whatever the source says'
+        help='number of executor threads, instead of that in the source'
         + ('; a range gives one table for all' if ranges else ''),
     )
     parser.add_argument(
@@ -207,7 +207,7 @@ def add_node_arguments(parser: argparse.ArgumentParser, *, confirms: bool = Fals
 
 
 def add_dask_argument(parser: argparse.ArgumentParser, what: str) -> None:
-    """Add who verifies; ``what`` names the jobs."""
+    """Add the option for what runs the jobs, which ``what`` names."""
     parser.add_argument(
         '--dask',
         metavar='tcp://HOST:PORT',

@@ -29,14 +29,14 @@ HOOKS = {'run', 'env', 'attach'}
 """Commands that put the hook into a process."""
 
 
-def tell_what_is_missing(name: str, args: argparse.Namespace, stderr: TextIO) -> None:
-    """Tell of what ``name`` would use; who asked for plain Python knows."""
+def report_missing_parts(name: str, args: argparse.Namespace, stderr: TextIO) -> None:
+    """Report missing parts that ``name`` would use, unless plain Python was asked for."""
     for module in _used(name, args):
         fault = _fault_of(module)
         if fault:
             part, cost = PARTS[module]
-            told = f'{part} is not built, or does not load here ({fault}): {cost}; {MEND}'
-            print(f'ros2cc-extract: note: {told}', file=stderr)
+            words = f'{part} is not built, or does not load here ({fault}): {cost}; {MEND}'
+            print(f'ros2cc-extract: note: {words}', file=stderr)
 
 
 def _fault_of(module: str) -> str:

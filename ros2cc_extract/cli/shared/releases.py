@@ -1,4 +1,4 @@
-"""Tells of releases of rclpy that nobody has looked at: none is taken for another in silence."""
+"""Report releases of rclpy that were never examined: none is silently taken for another."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import TextIO
 from ros2cc_extract.spec.releases.lines import judged_as
 
 
-def tell_releases(releases: Iterable[str | None], stderr: TextIO) -> None:
+def report_releases(releases: Iterable[str | None], stderr: TextIO) -> None:
     """Say what each of them is judged as, once."""
     for release in dict.fromkeys(filter(None, releases)):
-        told = judged_as(release)
-        if told is not None:
-            print(told, file=stderr)
+        words = judged_as(release)
+        if words is not None:
+            print(words, file=stderr)

@@ -40,7 +40,7 @@ def running_sides(args: argparse.Namespace) -> tuple[Side, ...]:
     What runs now, if it is asked for.
 
     :raises ToolNotFoundError: when no interpreter with rclpy is there.
-    :raises InputError: when no node is in sight.
+    :raises InputError: when no node is found.
     """
     if not args.running:
         return ()

@@ -13,11 +13,11 @@ from ros2cc_extract.source_locations import Place
 
 UTF_8 = 'utf-8'
 ESCAPED = 'backslashreplace'
-"""A sign that the stream does not know is told by its number, and ends nothing."""
+"""A character that the stream cannot encode is written as its number, and is no error."""
 
 
 class Careless(io.TextIOWrapper):
-    """Talks to whoever listens: nobody is told that nobody does."""
+    """Messages: if nobody can read them, that is no error."""
 
     def write(self, text: str) -> int:
         """Write, if that can be done."""
@@ -36,13 +36,13 @@ class Careless(io.TextIOWrapper):
 
 
 class Watched(io.TextIOWrapper):
-    """Results: whoever asked for them learns when they cannot be written."""
+    """Results: if they cannot be written, that is an error."""
 
     def write(self, text: str) -> int:
         """
         Write.
 
-        :raises InputError: when that cannot be done, but for a pipe that nobody reads any more.
+        :raises InputError: when that cannot be done, except for a pipe without a reader.
         """
         try:
             return super().write(text)
@@ -66,7 +66,7 @@ class Watched(io.TextIOWrapper):
 
 
 def with_streams(program: Callable[[TextIO, TextIO], int]) -> int:
-    """Run ``program`` with what it may write to, whatever the process was started with."""
+    """Run ``program`` with streams to write to, even if the process was started without any."""
     _open_closed()
     if isinstance(sys.stdout, io.TextIOWrapper):
         encoding, by_line = sys.stdout.encoding, sys.stdout.line_buffering
@@ -81,7 +81,7 @@ def with_streams(program: Callable[[TextIO, TextIO], int]) -> int:
 
 
 def as_utf_8(stream: TextIO) -> None:
-    """What other programs read is UTF-8, whatever the locale says."""
+    """Write UTF-8 in every locale, since other programs read it."""
     if isinstance(stream, io.TextIOWrapper):
         stream.reconfigure(encoding=UTF_8, errors=ESCAPED)
 
@@ -97,7 +97,7 @@ def _open_closed() -> None:
     """
     Fill the places of closed streams, which files of our own would take otherwise.
 
-    What is read is empty, what is told is lost, and a result that is lost is an error.
+    What is read is empty, messages are lost, and a result that is lost is an error.
     """
     for descriptor, flags in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
         try:

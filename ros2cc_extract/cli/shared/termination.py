@@ -1,4 +1,4 @@
-"""A request to end (SIGTERM, SIGHUP) is heard as a Ctrl-C is: what is known by then is told."""
+"""Handle a request to end (SIGTERM, SIGHUP) as a Ctrl-C: what is known by then is reported."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Termination:
 
     @property
     def is_asked(self) -> bool:
-        """Whether somebody has."""
+        """Whether the end was requested."""
         return self.number != 0
 
     @property
@@ -41,7 +41,7 @@ def termination_as_interrupt(asked: Termination) -> Iterator[None]:
     The interrupt may come at the end of the context too: it is caught outside. Handlers of the
     user's own, signals that are ignored, and threads that hear none, are left alone.
 
-    :param asked: is told which one was heard.
+    :param asked: called with the signal that was received.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -66,8 +66,8 @@ def forget_interrupt() -> None:
     Let the process end with its own status, though an interrupt was caught on the way.
 
     An interrupt that leaves ``exec`` of a text (each data class is made by one) is noted by
-    CPython as one that nobody has caught, whoever does: ``python -m`` then ends by SIGINT,
-    whatever the status (``unhandled_keyboard_interrupt`` in Python/pythonrun.c and
+    CPython as uncaught, even if it is caught: ``python -m`` then ends by SIGINT, with
+    any status (``unhandled_keyboard_interrupt`` in Python/pythonrun.c and
     Modules/main.c). The next text that is run takes the note back.
     """
     exec('')

@@ -1,5 +1,5 @@
 """
-Follows the actions of launch files in their order, and tells what they start.
+Follow the actions of launch files in their order, and list what they start.
 
 Source: launch_ros (Jazzy) ``actions/node.py`` (what is in ``arguments`` comes first on the command
 line, then name, namespace, parameters and remaps, those of the scope before its own; rcl takes the
@@ -44,7 +44,7 @@ _MOST_ACTIONS = 50_000
 _MOST_COST, _COST_OF_PROCESS, _COST_OF_FACT, _LETTERS_FOR_ONE = 100_000, 100, 4, 100
 Load = Callable[[Path, Context], Sequence[Action]]
 UNRESOLVED = 'launch-unresolved'
-"""Slug of what a launch file says that could not be told."""
+"""Slug of what a launch file says that could not be resolved."""
 
 
 class Execution:
@@ -233,8 +233,8 @@ class Execution:
 
 def _cost_of(launched: Launched) -> int:
     """What comes after grows with it: each node has what rclpy makes, under names of its own."""
-    told = (launched.name, launched.namespace, *launched.remaps, *launched.command)
-    letters = sum(len(str(each)) for each in told if each is not None)
+    texts = (launched.name, launched.namespace, *launched.remaps, *launched.command)
+    letters = sum(len(str(each)) for each in texts if each is not None)
     facts = len(launched.remaps) + len(launched.parameters)
     return _COST_OF_PROCESS + _COST_OF_FACT * facts + letters // _LETTERS_FOR_ONE
 

@@ -36,7 +36,7 @@ V = TypeVar('V', Value, Value | None)
 
 
 class ProcessFacts:
-    """Tells what is started in the scope of the moment."""
+    """Finds what is started in the current scope."""
 
     def __init__(self, context: Context, evaluator: Evaluator, packages: Packages) -> None:
         self._context = context

@@ -31,7 +31,7 @@ from ros2cc_extract.files import read_regular
 EXIT_CLEAN, EXIT_ERROR = 0, 2
 # The main thread runs our lines as soon as it is back from C; an executor wakes at every event.
 PATIENCE_S = 15.0
-MOST_TOLD_BYTES = 10_000
+MOST_REPORTED_BYTES = 10_000
 _LOOK_EVERY_S = 0.05
 
 
@@ -98,7 +98,7 @@ def _await(recording: Path, pid: int) -> Path:
     deadline = time.monotonic() + PATIENCE_S
     while not recording.exists():
         if failure.exists():
-            raise InputError(f'process {pid} could not be recorded: {_told_by(failure)}')
+            raise InputError(f'process {pid} could not be recorded: {_shown_by(failure)}')
         if time.monotonic() > deadline:
             raise InputError(
                 f'process {pid} does not answer: its main thread runs no Python',
@@ -109,8 +109,10 @@ def _await(recording: Path, pid: int) -> Path:
     return recording
 
 
-def _told_by(failure: Path) -> str:
+def _shown_by(failure: Path) -> str:
     try:
-        return ascii(read_regular(failure, MOST_TOLD_BYTES, follow=False).decode(errors='replace'))
+        return ascii(
+            read_regular(failure, MOST_REPORTED_BYTES, follow=False).decode(errors='replace')
+        )
     except OSError as error:
         return f'{error.strerror}'

@@ -1,7 +1,7 @@
 """
 Runs a command as if we were not there: same terminal, same signals, same end.
 
-Linux: signals are taken by ``sigwaitinfo``, which tells one that was sent to us alone from one
+Linux: signals are taken by ``sigwaitinfo``, which distinguishes a signal sent to us alone from one
 that the terminal has sent to the whole foreground group, our child included.
 """
 
@@ -16,7 +16,7 @@ from contextlib import contextmanager
 
 from ros2cc_extract.errors import ToolNotFoundError
 
-# What somebody may send us in place of the command; stopping and continuing act on both anyway.
+# What others may send us instead of the command; stopping and continuing act on both anyway.
 _PASSED_ON = (
     signal.SIGINT,
     signal.SIGTERM,
@@ -60,7 +60,7 @@ def run_child(command: Sequence[str], environment: Mapping[str, str]) -> int:
 
 @contextmanager
 def deaf_to_ctrl_c() -> Iterator[None]:
-    """Finish something short, whoever presses Ctrl-C once more meanwhile."""
+    """Finish something short, even if the user presses Ctrl-C once more meanwhile."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
@@ -89,7 +89,7 @@ def end_alike(status: int) -> int:
     if status >= 0:
         return status
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    # What nobody can catch is as it was, and cannot be set.
+    # Signals that cannot be caught keep their actions, and cannot be set.
     if -status not in (signal.SIGKILL, signal.SIGSTOP):
         signal.signal(-status, signal.SIG_DFL)
     os.kill(os.getpid(), -status)

@@ -1,5 +1,5 @@
 """
-The way into a running process, and whom it lets in.
+The way into a running process, and which user it lets in.
 
 By what the interpreter offers (Python 3.14, ``sys.remote_exec``), and where that is missing or
 refused, as it is by a process of another Python version, by our own library, which the injector
@@ -60,9 +60,9 @@ def check_process(pid: int) -> None:
 
 def user_to_enter(pid: int, *, other_user: bool) -> int:
     """
-    Who gets to read the script: ourselves, or whom we were asked to serve.
+    The user that may read the script: ourselves, or the one we were asked to serve.
 
-    :raises InputError: when that is another user and nobody asked for it.
+    :raises InputError: if that is another user without a request for it.
     """
     try:
         user = user_of_process(pid)
@@ -83,7 +83,7 @@ def user_to_enter(pid: int, *, other_user: bool) -> int:
 @contextlib.contextmanager
 def private_folder() -> Iterator[Path]:
     """
-    Make a folder that nobody else can enter, or put another in the place of.
+    Make a folder that no other user can enter, or put another in the place of.
 
     :raises InputError: when the folder for temporary files lets others do so.
     """
@@ -144,7 +144,7 @@ def inject(pid: int, script: Path, ways: Sequence[Injector]) -> None:
     """
     Run a script in a process by the first of ``ways`` that is let in.
 
-    :raises ToolNotFoundError: when none is; says what each was told.
+    :raises ToolNotFoundError: if none is; the message has the answer to each.
     """
     refused: dict[str, Exception] = {}
     for injector in ways:
@@ -154,9 +154,9 @@ def inject(pid: int, script: Path, ways: Sequence[Injector]) -> None:
             refused[injector.name] = error
         else:
             return
-    # Some tell whole pages.
-    told = '; '.join(f'{name}: {" ".join(str(e).split())[:200]}' for name, e in refused.items())
-    raise ToolNotFoundError(f'process {pid} cannot be entered: {told}', None, _mend(refused))
+    # Some messages are whole pages.
+    words = '; '.join(f'{name}: {" ".join(str(e).split())[:200]}' for name, e in refused.items())
+    raise ToolNotFoundError(f'process {pid} cannot be entered: {words}', None, _mend(refused))
 
 
 def _mend(refused: Container[str]) -> str:

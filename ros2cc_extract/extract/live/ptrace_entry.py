@@ -3,7 +3,7 @@ Our own way into a process: a small library that runs a script in a thread of it
 
 pyinjector (extra ``attach``) stops one thread of the process, lets it load the library, and lets
 it go on as it was. The library (``native/enter.c``) waits for nothing while it is loaded, in
-particular not for the lock of the interpreter: who waits for that with the linker's lock in hand
+particular not for the lock of the interpreter: a thread that waits for that with the linker's lock
 freezes a process that imports a C module at that moment. When the script has ended, the library
 is unloaded.
 """
@@ -29,7 +29,7 @@ from ros2cc_extract.extract.live.thread_choice import (
     tracer_of,
 )
 
-MOST_TOLD_BYTES = 2000
+MOST_REPORTED_BYTES = 2000
 _LOOK_EVERY_S = 0.002
 _IN, _REFUSED, _GIVEN_UP = b'i', b'r', b'g'
 
@@ -42,7 +42,7 @@ def library() -> Path | None:
 
 
 def is_available() -> bool:
-    """Tell whether there are the injector, and the library for it to load."""
+    """Return whether the injector and the library that it loads are there."""
     try:
         importlib.import_module('pyinjector')
     except ImportError:
@@ -54,7 +54,7 @@ def enter(pid: int, script: Path, folder: Path, patience_s: float) -> None:
     """
     Start a script in a process; it runs when this returns, or has ended.
 
-    :param folder: empty, and nobody else's. Who is given up is let in late: when the folder has
+    :param folder: empty, and our own. A process that was given up enters late: if the folder has
         been taken away by then, nothing is run.
     :param patience_s: how long to wait for a thread that may be stopped, and for the interpreter.
     :raises OSError: when the process or the system refuses.
@@ -153,8 +153,8 @@ def _in_a_child(work: Callable[[], None], pid: int, deadline: float) -> None:
     Do in a child what holds a thread of another process, and wait for it until the deadline.
 
     Neither that nor Ctrl-C may end the child: it holds the thread in the middle of a call that is
-    not its own, and whoever lets go of it there ends the process. So it stays until that call is
-    done, and nobody waits.
+    not its own, and letting go of it there ends the process. So it stays until that call is
+    done, and nothing waits for it.
 
     :raises OSError: with what a refusal says.
     :raises InputError: with the reason why it was given up.
@@ -172,12 +172,12 @@ def _in_a_child(work: Callable[[], None], pid: int, deadline: float) -> None:
                 f'process {pid} does not come to an end of loading a library: another one of its '
                 'threads keeps the lock of the dynamic linker'
             )
-        told = answer.read(MOST_TOLD_BYTES)
+        reported = answer.read(MOST_REPORTED_BYTES)
     os.waitpid(child, 0)
-    what, _, mend = told[1:].decode(errors='replace').partition('\0')
-    if told[:1] == _GIVEN_UP:
+    what, _, mend = reported[1:].decode(errors='replace').partition('\0')
+    if reported[:1] == _GIVEN_UP:
         raise InputError(what, None, mend)
-    if told[:1] != _IN:
+    if reported[:1] != _IN:
         raise OSError(what or 'the injector ended without an answer')
 
 
@@ -187,16 +187,16 @@ def _work_alone(work: Callable[[], None], write: int) -> None:
         os.setsid()
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, signal.SIG_IGN)
-        # Who reads our output must not wait for a child that stays.
+        # The reader of our output must not wait for a child that stays.
         nothing = os.open(os.devnull, os.O_RDWR)
         for stream in range(3):
             os.dup2(nothing, stream)
         work()
         os.write(write, _IN)
     except InputError as error:
-        os.write(write, _GIVEN_UP + f'{error.what}\0{error.mend}'.encode()[:MOST_TOLD_BYTES])
+        os.write(write, _GIVEN_UP + f'{error.what}\0{error.mend}'.encode()[:MOST_REPORTED_BYTES])
     except BaseException as error:
-        told = ' '.join(str(error).split()) or repr(error)
-        os.write(write, _REFUSED + told[:MOST_TOLD_BYTES].encode())
+        reported = ' '.join(str(error).split()) or repr(error)
+        os.write(write, _REFUSED + reported[:MOST_REPORTED_BYTES].encode())
     finally:
         os._exit(0)

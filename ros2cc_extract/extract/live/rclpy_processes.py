@@ -8,7 +8,7 @@ from pathlib import Path
 from ros2cc_extract.file_ownership import user_of_process
 
 _PROC = Path('/proc')
-# The part of rclpy in C++; whoever imports rclpy has it in memory (``impl/``, 1.0 and later).
+# The part of rclpy in C++; processes with rclpy have it in memory (``impl/``, 1.0 and later).
 _LIBRARY = b'_rclpy_pybind11'
 
 
@@ -26,7 +26,7 @@ def _runs_rclpy(process: Path) -> bool:
     try:
         is_own = user_of_process(int(process.name)) == os.geteuid()
         return is_own and _is_beside_us(process) and _LIBRARY in (process / 'maps').read_bytes()
-    except OSError:  # it has ended, or nobody may look at it
+    except OSError:  # it has ended, or we may not look at it
         return False
 
 

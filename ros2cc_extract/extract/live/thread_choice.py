@@ -5,7 +5,7 @@ The call takes the locks of the dynamic linker and of malloc. A thread that was 
 held one of them, or while another thread waits for it to leave a condition variable, would wait
 for itself, and the process would stand for good. A thread that sleeps in a system call by which
 it waits for the network, a child, a signal or time holds none of them: neither the linker nor
-malloc makes such a call. A futex may be anybody's, the interpreter's lock included, so no thread
+malloc makes such a call. A futex may be any lock, the interpreter's included, so no thread
 that waits for one is chosen.
 """
 
@@ -19,7 +19,7 @@ from ros2cc_extract.errors import InputError
 
 # Numbers on x86-64 and aarch64, by Linux: arch/x86/entry/syscalls/syscall_64.tbl, and
 # scripts/syscall.tbl. The sooner the better: receiving is resumed as if nothing had been, while
-# epoll_wait is told of it (EINTR, signal(7)).
+# epoll_wait fails (EINTR, signal(7)).
 _CALLS: Mapping[str, tuple[int | None, int | None]] = {
     'recvfrom': (45, 207),
     'recvmsg': (47, 212),
@@ -71,7 +71,7 @@ def threads_to_enter(pid: int) -> list[int]:
 
 def sleeps_in_a_call_of_its_own(pid: int, thread: int) -> bool:
     """
-    Tell whether a thread may be lent. Asked again when it is stopped: it may have woken before.
+    Return whether a thread may be lent. Asked again when it is stopped: it may have woken before.
 
     One that was stopped as it came back from the call stands behind it, and nowhere else.
     """

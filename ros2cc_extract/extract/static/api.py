@@ -62,7 +62,7 @@ def scan_text(text: str, name: str = 'node.py') -> Extraction:
 def _scanned(
     project: Project, processes: int, progress: Progress | None, patience: Patience
 ) -> tuple[Extraction, frozenset[FollowedFile]]:
-    # Imported here: what the cache knows is told without the interpreter, which loads slowly.
+    # Imported here: what the cache knows is returned without the interpreter, which loads slowly.
     from ros2cc_extract.extract.static.scan.scanning import scan_project
 
     return scan_project(project, processes, progress, patience)

@@ -13,7 +13,7 @@ def with_assumptions(finding: Finding, unit: Spec) -> Finding:
     """
     Name what was assumed of the callbacks concerned, and what setting leads to a wait.
 
-    A wait to which no default leads is told as a warning at most.
+    A wait to which no default leads is reported as a warning at most.
     """
     concerned = [c for c in unit.callbacks if c.name in finding.subjects]
     remarks = tuple(

@@ -1,4 +1,4 @@
-"""What we tell a developer about his node: one finding at one line, with what shows it."""
+"""What a developer reads about a node: one finding at one line, with what shows it."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Finding:
     :param run: a run of the model that shows it.
     :param help: how to mend it, in one clause.
     :param on_node: what came of it on the running node, where that was tried.
-    :param cause: what is behind it, where one cause may show in several units; told once.
+    :param cause: what is behind it, where one cause may show in several units; reported once.
     """
 
     code: str

@@ -21,7 +21,7 @@ from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.results import Verification
 
 Doer = Callback | Activity
-"""Who waits, reads and writes: a callback, or a thread of the program's own."""
+"""What waits, reads and writes: a callback, or a thread of the program's own."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Context:
 
     @cached_property
     def written(self) -> tuple[Callback, ...]:
-        """The callbacks somebody wrote; those that rclpy adds to every node are left out."""
+        """The user's callbacks; those that rclpy adds to every node are left out."""
         return tuple(callback for callback in self.unit.callbacks if not callback.builtin)
 
     @cached_property
@@ -47,7 +47,7 @@ class Context:
 
     @cached_property
     def doers(self) -> tuple[Doer, ...]:
-        """The callbacks somebody wrote, and what runs beside the executor."""
+        """The user's callbacks, and what runs beside the executor."""
         return (*self.written, *self.unit.activities)
 
     @cached_property

@@ -1,5 +1,5 @@
 """
-A baseline: findings that are known, so that only what a change adds is told.
+A baseline: findings that are known, so that only what a change adds is reported.
 
 A finding is recognised by its fingerprint; code, path and message stand in the file for its
 readers.

@@ -59,8 +59,8 @@ def suppress(
     Take out what comments in the sources accept.
 
     :param sources: text of the files, by the path that places name.
-    :param checked: files of which every finding is known, all by default; in others, such as
-        modules that a checked file imports, a comment may be for somebody else's finding.
+    :param checked: files whose findings are all known, all files by default; in others, such as
+        modules that a checked file imports, a comment may be for a finding elsewhere.
     """
     ignores = [i for file in sorted(sources) for i in ignores_in(file, sources[file])]
     by_line: dict[tuple[str, int, str], Ignore] = {

@@ -59,7 +59,7 @@ def read_for(effect: Access, doer: Callback | Activity) -> Access | None:
     """The last read before a effect that rests on one; ``None`` if the doer has stored since."""
     known = known_of(doer).setdefault(read_for, {})
     if id(effect) not in known:
-        # Kept with its effect, lest another one gets its number.
+        # Kept with its effect, so that no other one gets its number.
         known[id(effect)] = effect, _read_for(effect, doer)
     found: Access | None = known[id(effect)][1]
     return found

@@ -1,7 +1,7 @@
 """
 Flags by which callbacks keep each other out, as far as they do.
 
-The scanner notes who has found a flag down and put it up
+The scanner notes which code has found a flag down and put it up
 (``extract/static/concurrency/accesses/flag_locks.py``). That keeps others out where nobody
 else writes the flag, and where no two can find it down at once.
 """
@@ -30,7 +30,7 @@ _Use = Callback | Activity
 
 
 def shared_by(context: Context) -> tuple[Callback, ...]:
-    """The callbacks somebody wrote, with their accesses as flags leave them."""
+    """The user's callbacks, with their accesses as flags leave them."""
     return as_shared(context.written, context)
 
 
@@ -78,7 +78,7 @@ def _judged(accesses: Iterable[Access], kept: set[str]) -> tuple[Access, ...]:
 
 
 def _keeps_out(flag: str, context: Context) -> bool:
-    """Whether all who write it hold it, and one by one find it down."""
+    """Whether all that write it hold it, and one by one find it down."""
     name = flag.removesuffix(FLAG)
     everybody: tuple[Callback | Activity, ...] = (
         *context.unit.callbacks,
@@ -93,7 +93,7 @@ def _keeps_out(flag: str, context: Context) -> bool:
     if len({write.found for _, write in setters} - {None}) > 1 and any(
         write.lowers and write.found == FOUND_NONE for _, write in setters
     ):
-        # Who asks for the truth of it finds down what is not ``None``.
+        # Code that tests its truth finds down what is not ``None``.
         return False
     found = {write.found for _, write in setters}
     is_state = any(
@@ -116,8 +116,8 @@ def _answer_in_turn(uses: Sequence[tuple[_Use, Access]], context: Context) -> bo
     """
     Whether one doer alone puts the flag down that others put up, and only where it found it up.
 
-    ``if self.asked: …; self.asked = False``: while that doer is at it nobody finds it down, so
-    nobody puts it up.
+    ``if self.asked: …; self.asked = False``: while that doer is at it no other finds it down, so
+    none puts it up.
     """
     if not all(write.lowers and write.found == FOUND_TRUE for _, write in uses):
         return False

@@ -2,7 +2,7 @@
 Goals that are let in because of a state which changes only when their execution begins.
 
 ``goal_callback`` accepts, and ``execute`` counts: between the two the next goal may be asked for,
-whatever lock each of them holds.
+no matter which lock each of them holds.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def _is_reserved(late: LateClaim, context: Context) -> bool:
     """
     Whether the goal callback puts another flag up, which keeps goals out until the claim.
 
-    It asks for both and puts that one up in one hold of a lock, and whoever else writes that one
+    It asks for both and puts that one up in one hold of a lock, and other writes of that one
     writes what is claimed in one hold with it: no goal finds both down in between.
     """
     doers: tuple[Callback | Activity, ...] = (*context.written, *context.unit.activities)

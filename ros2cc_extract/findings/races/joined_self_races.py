@@ -1,4 +1,4 @@
-"""Races of callbacks with themselves that are told in one line: one line of code, or one cause."""
+"""Races of callbacks with themselves, joined into one line: one line of code, or one cause."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _BY_DEFAULT = 'when messages come together'
 @dataclass(frozen=True)
 class JoinedRaces:
     """
-    Races of one kind that one sentence tells.
+    Races of one kind that one sentence reports.
 
     :param races: one for each attribute, of the first callback.
     :param callbacks: all that come to these lines.
@@ -55,7 +55,7 @@ def joined(
     """
     Join what different callbacks do at one line, and then what the same callbacks do elsewhere.
 
-    :param weight: only what has the same weight is told together.
+    :param weight: only what has the same weight is reported together.
     """
     at_line: dict[Hashable, list[SelfRace]] = {}
     for race in races:
@@ -73,7 +73,7 @@ def joined(
 
 
 def message_of(joint: JoinedRaces) -> str:
-    """Say who may overlap, when, and what becomes of the attributes."""
+    """Say which runs may overlap, when, and what becomes of the attributes."""
     names = listing(joint.names, limit=4)
     is_one = len({called(callback) for callback in joint.callbacks}) == 1
     itself, has, s = ('itself', 'it has', 's') if is_one else ('themselves', 'they have', '')

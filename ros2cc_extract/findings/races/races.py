@@ -120,7 +120,7 @@ class Race:
         return (*self.names, *dict.fromkeys(use.doer.name for use in callbacks))
 
     def related(self) -> tuple[Remark, ...]:
-        """The other writes; one function of several entities is told once."""
+        """The other writes; one function of several entities is listed once."""
         remarks = (
             Remark(use.place, f'{called(use.doer)} writes {use.access.name} here')
             for use in self.others
@@ -375,14 +375,14 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
     for first, second in ((one, other), (other, one)):
         if first.access.whole:
             continue
-        is_told = read_acted_on(first.access, first.doer, second.access) is not None
-        is_told = is_told or (first.access.rests and not first.access.in_place)
-        is_told = is_told and not _changes_nothing(first, second)
-        if is_told and _is_read_before(first, second):
+        is_wanted = read_acted_on(first.access, first.doer, second.access) is not None
+        is_wanted = is_wanted or (first.access.rests and not first.access.in_place)
+        is_wanted = is_wanted and not _changes_nothing(first, second)
+        if is_wanted and _is_read_before(first, second):
             return RaceKind.CHECK_THEN_ACT, first, second
     for first, second in ((one, other), (other, one)):
-        is_told = first.access.in_place and not _leaves_enough(first, second)
-        if is_told and _is_read_before(first, second) and first.access.rests:
+        is_wanted = first.access.in_place and not _leaves_enough(first, second)
+        if is_wanted and _is_read_before(first, second) and first.access.rests:
             return RaceKind.CHECK_THEN_CHANGE, first, second
     for first, second in ((one, other), (other, one)):
         if first.access.whole:
@@ -405,7 +405,7 @@ def _may_be_lost(update: Use, rival: Use) -> bool:
 
 
 def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
-    """A lock helps only who keeps it from what was read to what is written because of that."""
+    """A lock helps only if it is held from the read to the write that is based on it."""
     for first, second in ((one, other), (other, one)):
         write = first.access
         read = read_acted_on(write, first.doer, second.access)
@@ -419,7 +419,7 @@ def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
 
 
 def _leaves_enough(first: Use, second: Use) -> bool:
-    """Who takes an item out because there is one finds one, whatever others put in."""
+    """Code that takes an item out because there is one finds one, if others only put items in."""
     return first.access.moves == TAKES and second.access.moves == ADDS
 
 
@@ -431,7 +431,7 @@ def _leaves_as_found(first: Use, second: Use) -> bool:
 
 
 def _store_alike(one: Use, other: Use) -> bool:
-    """Whether both store ``None``, or both what else is false: it is no matter who is last."""
+    """Whether both store ``None``, or both what else is false: the order does not matter."""
     ours, theirs = one.access, other.access
     return (ours.clears and theirs.clears) or (ours.lowers and theirs.lowers)
 
@@ -440,8 +440,8 @@ def _changes_nothing(first: Use, second: Use) -> bool:
     """
     Whether what comes in between is what was found, or the ``False`` that is stored in any case.
 
-    Two that both test before they store the same may both act on it, and who meets ``None`` where
-    an object was may fail.
+    Two that both test before they store the same may both act on it, and one that meets ``None``
+    instead of an object may fail.
     """
     is_lowered = first.access.lowers and second.access.lowers and not second.access.rests
     return is_lowered or _leaves_as_found(first, second)
@@ -477,10 +477,10 @@ def _is_flag(conflict: _Conflict) -> bool:
 def _race(name: str, conflicts: list[_Conflict]) -> Race:
     worst = min(conflicts, key=lambda conflict: _WEIGHT[conflict.kind])
     first = worst.first.doer.name
-    told = [each for each in conflicts if each.kind is worst.kind or worst.kind not in _OWN_HARM]
+    shown = [each for each in conflicts if each.kind is worst.kind or worst.kind not in _OWN_HARM]
     uses = [
         use
-        for conflict in told
+        for conflict in shown
         if first in (conflict.first.doer.name, conflict.other.doer.name)
         for use in (conflict.first, conflict.other)
     ]

@@ -1,7 +1,7 @@
 """
 What two runs of one callback do to each other's shared data.
 
-Told are three shapes: an update whose old value the other run has read too; a write that rests
+Three shapes are reported: an update whose old value the other run has read too; a write that rests
 on an earlier read, as a test or a copy; and what a run has written, waits, and reads back.
 """
 
@@ -41,7 +41,7 @@ class SelfRace:
 
     :param use: where it shows; ``callback`` does it.
     :param waits: the callback waits between what it read or wrote first and ``use``.
-    :param is_whole: CPython lets nobody in between, as long as it has its global lock.
+    :param is_whole: CPython lets no thread in between, as long as it has its global lock.
     """
 
     kind: SelfRaceKind
@@ -55,8 +55,8 @@ def self_races_of(callback: Callback, shared: frozenset[str] = frozenset()) -> I
     """
     The worst one of each attribute.
 
-    :param shared: attributes in which others store values too. Who reads such a one back reckons
-        with that; what nobody else stores is taken for what the same run has written.
+    :param shared: attributes in which others store values too. Code that reads one back expects
+        that; what no other code stores is taken for what the same run has written.
     """
     for name in dict.fromkeys(access.name for access in callback.writes):
         writes = [access for access in callback.writes if access.name == name]

@@ -1,8 +1,8 @@
 """
-Names of what is one object in the whole program, whoever uses it.
+Names of what is one object in the whole program, for all its users.
 
 An attribute of a node is known by the class of that node: two nodes of one class have two. Helper
-objects are told apart by numbers, and variables of modules are there once.
+objects are distinguished by numbers, and variables of modules exist once.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ros2cc_extract.spec.model import Callback, Spec
 
 
 def node_classes(units: Iterable[Spec]) -> frozenset[str] | None:
-    """The classes of which some node is; ``None`` where that is not told of all that matter."""
+    """The classes of the nodes; ``None`` if that is not known of all that matter."""
     doers: list[Doer] = []
     for unit in units:
         doers += (*unit.callbacks, *unit.activities)

@@ -4,7 +4,7 @@ How many callbacks can wait at the same time, each holding a worker thread.
 An exclusive group lets one of its members in, branches of one ``alternative`` mark never
 coexist, everything else may coincide. So a largest set of simultaneous waiters is a maximum
 matching between groups and marks, where a reentrant callback has a group of its own and an
-unmarked one a mark of its own. Where branches are told apart, the one with most waiters counts.
+unmarked one a mark of its own. Where branches are distinguished, the one with most waiters counts.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Capacity:
     :param together: one such set, without repetitions of a callback with itself.
     :param times: how often each of them is in the set.
     :param at_least: its size, entities of loops counted as often as they are made, services as
-        often as clients in sight may ask them at a time.
+        often as known clients may ask them at a time.
     :param unbounded: callbacks that may also overlap themselves, so that no number is enough.
     """
 
@@ -63,7 +63,7 @@ def capacity_of(waiters: Sequence[Callback], context: Context) -> Capacity:
 
 
 def _of_largest_branches(waiters: Sequence[Callback]) -> list[Callback]:
-    """Of the branches of each mark, those who wait in the one with most of them."""
+    """Of the branches of each mark, those that wait in the one with most of them."""
     branches = [w for w in waiters if w.alternative is not None and w.branch is not None]
     sizes = Counter((waiter.alternative, waiter.branch) for waiter in branches)
     largest: dict[str | None, int | None] = {}
@@ -100,7 +100,7 @@ def _copies(callback: Callback, context: Context) -> int:
     Count the runs that may coincide.
 
     A loop makes several entities; in exclusive groups they coincide if it makes groups too. Else
-    a service runs as often at a time as clients in sight may ask it.
+    a service runs as often at a time as known clients may ask it.
     """
     group = context.group_of(callback)
     own = callback.count if isinstance(callback.count, int) else 1

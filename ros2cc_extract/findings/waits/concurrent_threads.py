@@ -66,7 +66,7 @@ def repeats(thread: Activity) -> bool:
 
 
 def repeats_freely(thread: Activity, context: Context) -> bool:
-    """Whether several run at once; who starts one and joins it has only one at a time."""
+    """Whether several run at once; code that starts one and joins it has only one at a time."""
     holder = _holder(thread, context)
     if isinstance(holder, Callback):
         return repeats(thread) and overlaps_itself(holder, context)
@@ -132,7 +132,7 @@ def _is_transition_of(callback: Callback, thread: Activity, context: Context) ->
 
 
 def _frame(doer: Doer, context: Context) -> Doer:
-    """Within whose run it runs from its start to its end; itself where nobody joins it."""
+    """The doer in whose run it runs from start to end; itself if nothing joins it."""
     seen = {doer.name}
     while isinstance(doer, Activity):
         holder = _holder(doer, context)
@@ -144,7 +144,7 @@ def _frame(doer: Doer, context: Context) -> Doer:
 
 
 def _holder(thread: Activity, context: Context) -> Doer | None:
-    """Who alone starts it, and waits for its end."""
+    """The only doer that starts it, and waits for its end."""
     names = {start.by for start in thread.starts}
     everybody: tuple[Doer, ...] = (*context.unit.callbacks, *context.unit.activities)
     starters = [one for one in everybody if one.name in names]

@@ -2,7 +2,7 @@
 Waits that end by themselves a number of times, and never after that.
 
 The room in a bounded queue and the value of a semaphore are used up by runs before. Models leave
-such a wait open; but where nobody who gives back can run while somebody waits, it never ends.
+such a wait open; but if nothing that gives back can run during the wait, it never ends.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def used_up(context: Context) -> Iterator[Wait]:
 
 
 def is_used_up(block: Blocking, caller: object, context: Context) -> bool:
-    """Whether everybody who gives back is kept from it by the one who waits."""
+    """Whether all that give back are kept from it by the one that waits."""
     if not isinstance(caller, Callback) or block.seconds is not None:
         return False
     if block.escapes is None or not block.escapes.reason.endswith(BY_ITSELF):
@@ -49,7 +49,7 @@ def _is_held_up(name: str, caller: Callback, context: Context) -> bool:
 
 
 def kept_for(giver: Activity, caller: Callback, context: Context) -> tuple[Callback, ...]:
-    """For whom a thread may wait that cannot run while ``caller`` waits, and nobody else can."""
+    """What a thread may wait for that cannot run while ``caller`` waits, if nothing else can."""
     for block in giver.blocking:
         if block.seconds is None and block.escapes is None and block.call not in _OF_LOOPS:
             needed = [context.by_name.get(waker.by) for waker in block.wakers]

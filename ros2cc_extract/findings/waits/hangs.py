@@ -1,7 +1,7 @@
 """
 What of a run shows that callbacks wait forever: how they get there, and what it ends in.
 
-A run that refutes *it always ends* goes on until nothing moves any more, so that whatever else
+A run that refutes *it always ends* goes on until nothing moves any more, so that all else that
 could happen has happened; most of it has no part in the wait.
 """
 
@@ -42,7 +42,7 @@ class Standstill:
 
     @property
     def needed(self) -> str:
-        """Who or what ends it, in words; ``enders`` are their names."""
+        """What ends it, in words; ``enders`` are their names."""
         return self.event.awaited or ''
 
     @property
@@ -75,7 +75,7 @@ class Standstill:
         return self.event.kind == _AWAIT
 
     def said(self, names: Mapping[str, str]) -> str:
-        """Say who waits for what, with words for names of the model."""
+        """Say what waits for what, with words for names of the model."""
         who, needed = names.get(self.who, self.who), self.event.awaited_in(names)
         if self._is_await:
             return f'{who} awaits {needed}'
@@ -107,13 +107,17 @@ def show_hang(
     waits = standing if is_full else _concerned(standing, about, groups)
     if not waits:
         return run
-    told = sorted(
-        set(_told(run.moments, waits, {*about, *(name for wait in waits for name in wait.enders)}))
+    kept_moments = sorted(
+        set(
+            _kept_moments(
+                run.moments, waits, {*about, *(name for wait in waits for name in wait.enders)}
+            )
+        )
     )
     return replace(
         run,
-        moments=tuple(_renumbered(run.moments, told)),
-        left_out=len(run.moments) - len(told),
+        moments=tuple(_renumbered(run.moments, kept_moments)),
+        left_out=len(run.moments) - len(kept_moments),
         closing=_closing(waits, groups, names, is_full=is_full),
     )
 
@@ -133,7 +137,7 @@ def open_waits(moments: Sequence[Moment]) -> list[Standstill]:
 def _concerned(
     waits: Sequence[Standstill], about: Collection[str], groups: Mapping[str, str]
 ) -> list[Standstill]:
-    """Those of ``about``, of what they wait for, and of who keeps the groups of these closed."""
+    """Those of ``about``, of what they wait for, and of what keeps the groups of these closed."""
     names = set(about)
     while True:
         closed = {groups[name] for name in names if name in groups}
@@ -144,7 +148,7 @@ def _concerned(
         names = wider
 
 
-def _told(
+def _kept_moments(
     moments: Sequence[Moment], waits: Sequence[Standstill], names: Collection[str]
 ) -> Iterator[int]:
     """Of the waiting callbacks the run that waits; of others what they do for it meanwhile."""
@@ -169,7 +173,7 @@ def _told(
 
 
 def _given_too_early(before: Sequence[Moment], wait: Standstill) -> Iterator[int]:
-    """Where those that could end a wait have done it before it began, and who has used that up."""
+    """Where what could end a wait has done so before it began, and what has used that up."""
     begin = _begin(before, wait.who, wait.since)
     of_enders, earlier, is_given = [], [], False
     for index, event in _events(before):
@@ -188,10 +192,10 @@ def _begin(moments: Sequence[Moment], who: str, since: int) -> int:
     return max((index + 1 for index in ends), default=0)
 
 
-def _renumbered(moments: Sequence[Moment], told: Sequence[int]) -> Iterator[Moment]:
+def _renumbered(moments: Sequence[Moment], kept_moments: Sequence[int]) -> Iterator[Moment]:
     """What changed in a step that is left out has changed in the next."""
     changes: dict[str, int | str] = {}
-    kept = set(told)
+    kept = set(kept_moments)
     number = 0
     for index, moment in enumerate(moments):
         changes |= moment.changes

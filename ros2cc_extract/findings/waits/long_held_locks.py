@@ -13,17 +13,17 @@ from ros2cc_extract.spec.effects import FLAG, RE_ENTRANT, SHARED, Act
 from ros2cc_extract.spec.model import Callback
 
 LONG_ROUND_S = 0.1
-"""From here on a sleep counts in a loop of which nobody knows how long it goes on: our choice."""
+"""From here on a sleep counts in a loop of unknown duration: our choice."""
 
 
 @dataclass(frozen=True)
 class LongHold:
     """
-    Somebody sleeps, and keeps a lock.
+    A doer that sleeps, and keeps a lock.
 
     :param wait: the longest of the sleeps.
-    :param seconds: how long they are in all; ``None`` where a loop goes on for nobody knows how
-        long.
+    :param seconds: how long they are in all; ``None`` if a loop goes on for an
+        unknown time.
     :param takers: the callbacks that wait for the lock, each with where it takes it.
     """
 
@@ -34,7 +34,7 @@ class LongHold:
 
 
 def long_holds(context: Context, long_s: float) -> Iterator[LongHold]:
-    """One for each lock that somebody holds for ``long_s`` or for nobody knows how long."""
+    """One for each lock that is held for ``long_s`` or for an unknown time."""
     for doer in context.doers:
         sleeps = [AnyWait(doer, b, kind_of(b)) for b in doer.blocking if b.held]
         sleeps = [wait for wait in sleeps if wait.kind is WaitKind.SLEEP]
@@ -62,7 +62,7 @@ def _seconds(wait: AnyWait) -> float:
 
 
 def _takers(lock: str, holder: Doer, context: Context) -> Iterator[tuple[Callback, Act]]:
-    """Other callbacks that may run meanwhile; of who holds it, another run is not meant."""
+    """Other callbacks that may run meanwhile; not another run of the holder."""
     for other in context.written:
         act = next((act for act in other.locks if act.name == lock and not act.tries), None)
         if act is not None and other.name != holder.name and _meet(holder, other, context):

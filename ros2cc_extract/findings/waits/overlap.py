@@ -77,7 +77,7 @@ def is_quick(callback: Callback, context: Context) -> bool:
 
     A timer has its period, and a subscription that of the one timer which publishes for it: only
     messages that were held up come together. A done-callback has that of the timer which asks,
-    where nobody else does but its own runs: then two answers come together only after one has
+    where only its own runs do: then two answers come together only after one has
     been late by a period.
     """
     if not all(kind_of(block) is WaitKind.SLEEP for block in callback.blocking):

@@ -1,4 +1,4 @@
-"""Who stands still at the end of a run of the model, in which wait of the source, and why."""
+"""What stands still at the end of a run of the model, in which wait of the source, and why."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Stuck:
 
     :param wait: as the source has it.
     :param enders: names of those that could end it, and of the service that answers a client.
-    :param holder: who has the lock that is waited for, in words.
+    :param holder: what has the lock that is waited for, in words.
     :param awaited: any other thing that is waited for, in words; empty where it has no name.
     """
 
@@ -37,7 +37,7 @@ class Stuck:
 
     @property
     def doer(self) -> Doer:
-        """Who waits."""
+        """What waits."""
         return self.wait.caller
 
     @property
@@ -111,7 +111,7 @@ def _block(doer: Doer, standstill: Standstill, context: Context) -> Blocking | N
 
 
 def why_stuck(stuck: Stuck, others: Sequence[Stuck], context: Context) -> str:
-    """Say why nobody ends a wait: the first cause that holds for all that could."""
+    """Say why nothing ends a wait: the first cause that holds for all that could."""
     enders = [context.doer_by_name[name] for name in stuck.enders if name in context.doer_by_name]
     if not enders:
         return _why_nobody(stuck, context)
@@ -157,7 +157,7 @@ def is_for_itself(stuck: Stuck) -> bool:
 
 
 def shut_out_for(stuck: Stuck, others: Sequence[Stuck], context: Context) -> list[str]:
-    """Who could end a wait and is kept from it by a closed group, by display name."""
+    """What could end a wait but is kept from it by a closed group, by display name."""
     enders = [context.doer_by_name[name] for name in stuck.enders if name in context.doer_by_name]
     return [ender.display_name for ender in _shut_out_of(enders, others, context)]
 
@@ -172,7 +172,7 @@ def _shut_out_of(
 
 
 def _follows(thread: Activity) -> bool:
-    """Whether it begins when whoever starts it has ended."""
+    """Whether it begins when the code that starts it has ended."""
     return bool(thread.starts) and all(start.after is None for start in thread.starts)
 
 
@@ -198,7 +198,7 @@ def _waits_too(stuck: Stuck) -> str:
 
 
 def _keeper(ender: Callback, others: Sequence[Stuck], context: Context) -> Callback | None:
-    """Who keeps the group of ``ender`` closed while it waits."""
+    """What keeps the group of ``ender`` closed while it waits."""
     group = context.exclusive_group(ender)
     keepers = (each.doer for each in others if isinstance(each.doer, Callback))
     return next((k for k in keepers if group is not None and k.group == group.name), None)

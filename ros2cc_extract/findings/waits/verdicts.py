@@ -35,7 +35,7 @@ def refuting_run(family: str, context: Context, *callbacks: Doer) -> Evidence | 
 
 def is_of_repeated(callback: Doer, context: Context) -> bool:
     """
-    Tell whether the run that holds a callback up is one in which others overlap themselves.
+    Return whether the run that holds a callback up is one in which others overlap themselves.
 
     Whether so many of their runs come together is a matter of rates.
     """
@@ -63,7 +63,7 @@ def shown_hang(callback: Doer, about: Collection[str], context: Context) -> Evid
 
 
 def rests_on_absent_service(run: Evidence) -> bool:
-    """True for a run in which somebody waits for a service that another program may well offer."""
+    """True for a run with a wait for a service that another program may well offer."""
     return any(event.is_for_service for moment in run.moments for event in moment.events)
 
 

@@ -130,9 +130,9 @@ def kind_of(block: Blocking) -> WaitKind:
 
 def waits_of(context: Context) -> Iterator[Wait]:
     """
-    All waits of the callbacks somebody wrote, in the order of the unit.
+    All waits of the user's callbacks, in the order of the unit.
 
-    A loop that steps an executor until a future is done is a nested spin for that future, told
+    A loop that steps an executor until a future is done is a nested spin for that future, reported
     where it steps.
     """
     for caller in context.written:
@@ -225,7 +225,7 @@ def waits_in(wait: AnyWait) -> str:
 
 
 def how_long(wait: AnyWait, *, is_one: bool = True) -> str:
-    """Say how long a wait lasts that nobody ends: forever, if it is no recursion."""
+    """Say how long a wait lasts that nothing ends: forever, if it is no recursion."""
     if wait.block.recursive:
         whose = 'it' if is_one else 'them'
         return f'RecursionError ends {whose} after some {RECURSION_LIMIT:,} calls'
@@ -233,7 +233,7 @@ def how_long(wait: AnyWait, *, is_one: bool = True) -> str:
 
 
 def how_it_ends(waits: Sequence[Wait]) -> str:
-    """Say what becomes of waits that nobody can end, of callbacks at one place."""
+    """Say what becomes of waits that nothing can end, of callbacks at one place."""
     wait, is_one = waits[0], len(callers_of(waits)) == 1
     if wait.has_timeout:
         runs = 'it always times out' if is_one else 'they always time out'
@@ -259,12 +259,12 @@ def callers_of(waits: Sequence[AnyWait]) -> tuple[str, ...]:
 
 
 def are_one(waits: Sequence[AnyWait]) -> bool:
-    """Whether all who wait have one name for the reader, as two timers of one function."""
+    """Whether all that wait have one name for the reader, as two timers of one function."""
     return len({called(wait.caller) for wait in waits}) == 1
 
 
 def who_waits(waits: Sequence[AnyWait]) -> str:
-    """Say who waits: ``drive waits``, ``drive, stop wait``."""
+    """Say what waits: ``drive waits``, ``drive, stop wait``."""
     names = shown(wait.caller for wait in waits)
     return f'{names} {"waits" if are_one(waits) else "wait"}'
 

@@ -33,7 +33,7 @@ from ros2cc_extract.text_escaping import one_line, printable
 from ros2cc_extract.version import __version__
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
-"""Nothing is loaded from anywhere, whatever the page may hold."""
+"""The browser loads nothing, no matter what the page holds."""
 
 
 def html_report(checked: Checked) -> str:

@@ -67,7 +67,7 @@ class _Unit:
 
     @cached_property
     def written(self) -> list[Callback]:
-        """Callbacks that somebody wrote."""
+        """Callbacks of the user."""
         return [callback for callback in self.spec.callbacks if not callback.builtin]
 
     @cached_property

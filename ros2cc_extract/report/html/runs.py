@@ -1,5 +1,5 @@
 """
-Runs to step through: data that the script draws when somebody asks for it.
+Runs to step through: data that the script draws on demand.
 
 A run that several parts show is stored once, and so is each of the few sentences, names and places
 of which runs are made.
@@ -48,7 +48,7 @@ class Runs:
         """
         Store a run and give where it is found.
 
-        :param unit: whose run it is; names its lanes as they are in the code.
+        :param unit: the unit of the run; it names its lanes as they are in the code.
         """
         callbacks = [each.name for each in unit.callbacks] if unit else []
         names = display_names(unit) if unit else {}

@@ -2,7 +2,7 @@
 The picture of a system: its processes with nodes and executors, and what connects them.
 
 Drawn as one SVG without script: a click on an executor leads to its unit. What a circle of waits
-goes through is red; what is not in sight is dashed.
+goes through is red; what is not known is dashed.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def system_section(system: System, anchors: Mapping[UnitKey, str], name: str = '
     legend = (
         span('letter', 'T'), ' topic ', span('letter', 'S'), ' service ',
         span('letter', 'A'), ' action ', span('circle', 'red: a circle of waits'), ' ',
-        span('dashed', 'dashed: not in sight, or there under a condition'),
+        span('dashed', 'dashed: not known, or there under a condition'),
     )  # fmt: skip
     return tag(
         'section',

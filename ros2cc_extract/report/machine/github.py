@@ -50,13 +50,13 @@ def step_summary(
         return '\n'.join(lines)
     weight = list(Severity)
     ordered = sorted(findings, key=lambda finding: weight.index(finding.severity))
-    told = [finding for finding in ordered if finding.severity is not Severity.NOTE]
-    notes = ordered[len(told) :]
-    if told:
-        lines += [_counts(told), '', *_rows(told, MOST_ROWS, root)]
+    main = [finding for finding in ordered if finding.severity is not Severity.NOTE]
+    notes = ordered[len(main) :]
+    if main:
+        lines += [_counts(main), '', *_rows(main, MOST_ROWS, root)]
     if notes:
         title = f'{counted(len(notes), "notes")}: {_counts(notes)}'
-        rows = _rows(notes, max(0, MOST_ROWS - len(told)), root)
+        rows = _rows(notes, max(0, MOST_ROWS - len(main)), root)
         lines += [f'<details><summary>{title}</summary>', '', *rows, '</details>', '']
     return '\n'.join(lines)
 

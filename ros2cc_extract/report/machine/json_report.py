@@ -92,7 +92,7 @@ def confidence_data(confidence: Summary) -> Data:
 
 
 def _without_cost(data: Data) -> Data:
-    """A check says the same on every machine; what a search costs is told by ``verify``."""
+    """A check says the same on every machine; what a search costs is reported by ``verify``."""
     queries = [{k: v for k, v in query.items() if k != 'seconds'} for query in data['queries']]
     rest = {key: value for key, value in data.items() if key not in ('seconds', 'peak_mb')}
     return {**rest, 'queries': queries}

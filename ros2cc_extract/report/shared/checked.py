@@ -24,7 +24,7 @@ class Checked:
     :param sources: text of those files that could be read, by the path that places name.
     :param root: absolute path of the repository; paths below it become relative.
     :param package: name of the test suite.
-    :param docs_url: where the site of ``docs/`` stands; empty when nobody said.
+    :param docs_url: where the site of ``docs/`` stands; empty if unknown.
     :param with_verdicts: people want to see the table of queries of each unit too.
     :param system: what launch files among the paths start.
     :param more: what else the JSON holds, such as where a result comes from.

@@ -1,7 +1,7 @@
 """
 Where the parts of a system stand in a picture: processes on both sides, connections between.
 
-Who sends or asks stands on the left as far as that is possible, so that most arrows go to the
+Senders and clients are on the left as far as possible, so that most arrows go to the
 right. Boxes of a side are ordered by what they are connected with, over and over, as in the
 layered drawings of Sugiyama et al.; the order is the same for the same system.
 """
@@ -17,7 +17,7 @@ from ros2cc_extract.spec.node_graph import EndpointKind
 from ros2cc_extract.spec.system.model import Connection, Process, System
 
 FROM = (EndpointKind.PUBLISHER, EndpointKind.CLIENT, EndpointKind.ACTION_CLIENT)
-"""Kinds of who sends or asks."""
+"""Kinds of senders and clients."""
 ROUNDS = 4
 Item = TypeVar('Item', bound=Hashable)
 

@@ -28,9 +28,9 @@ OF_ANOTHER_EXECUTOR = ('paper', 'starvation')
 
 
 @dataclass(frozen=True, kw_only=True)
-class Telling:
+class Presentation:
     """
-    How a check is told.
+    How a check is reported.
 
     :param paths: what was checked, as the user wrote it.
     :param seconds: how long it took; only a terminal gets it, so that logs stay the same.
@@ -41,7 +41,7 @@ class Telling:
     seconds: float | None = None
 
 
-def print_check(checked: Checked, console: Console, how: Telling) -> None:
+def print_check(checked: Checked, console: Console, how: Presentation) -> None:
     """Print everything, in the order in which it is read."""
     is_quiet, is_verbose = how.detail is Detail.QUIET, how.detail is Detail.VERBOSE
     print_findings(checked.findings, Paths(Path.cwd(), checked.root), console, how.detail)
@@ -95,8 +95,8 @@ def _first_of_each_family(
     shown: dict[str | None, tuple[int, QueryResult]] = {}
     runs = 0
     for number, result in enumerate(verification.results, start=1):
-        told = result.run is not None and result.family not in OF_NO_INTEREST
-        if result.verdict is Verdict.NOT_SATISFIED and told:
+        has_run = result.run is not None and result.family not in OF_NO_INTEREST
+        if result.verdict is Verdict.NOT_SATISFIED and has_run:
             runs += 1
             if (verification.profile, result.family) != OF_ANOTHER_EXECUTOR:
                 shown.setdefault(result.family, (number, result))

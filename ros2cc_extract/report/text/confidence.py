@@ -31,13 +31,13 @@ def confidence_lines(summary: Summary, most: int = MOST_OPEN) -> Iterator[str]:
 
 
 def _count(confidence: Confidence, subject: Subject) -> str:
-    """What was assumed is known for every claim; the rules are told on lines of their own."""
+    """Count what was assumed, over all claims; the rules are listed on lines of their own."""
     assumed = sum(confidence.assumed.values())
     remarks = [f'{assumed} by assumption'] if assumed else []
     if confidence.unresolved:
         remarks.append(f'{confidence.unresolved} unresolved')
-    told = f' ({", ".join(remarks)})' if remarks else ''
-    return f'{confidence.resolved + assumed} of {confidence.total} {subject.value}{told}'
+    more = f' ({", ".join(remarks)})' if remarks else ''
+    return f'{confidence.resolved + assumed} of {confidence.total} {subject.value}{more}'
 
 
 def _rules(summary: Summary) -> Iterator[str]:

@@ -44,10 +44,10 @@ def difference_lines(differences: Sequence[Difference], names: tuple[str, str]) 
         where = f'{place}: ' if place else ''
         of_unit = '' if each.subject == each.unit else f'{each.unit}: '
         about = 'note' if each.marked else 'warning'
-        yield f'{where}{about}: {of_unit}{_told(each, names)}'
+        yield f'{where}{about}: {of_unit}{_words(each, names)}'
 
 
-def _told(each: Difference, names: tuple[str, str]) -> str:
+def _words(each: Difference, names: tuple[str, str]) -> str:
     subject = f'{each.fact} {each.subject}' if each.subject == each.unit else each.subject
     if each.kind in (Kind.ONLY_LEFT, Kind.ONLY_RIGHT):
         here, there = names if each.kind is Kind.ONLY_LEFT else names[::-1]

@@ -35,7 +35,7 @@ _COLOURS = {Severity.ERROR: 'red', Severity.WARNING: 'magenta', Severity.NOTE: '
 
 
 class Detail(Enum):
-    """How much is told."""
+    """How much is reported."""
 
     QUIET = 'quiet'
     USUAL = 'usual'

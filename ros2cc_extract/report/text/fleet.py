@@ -18,9 +18,9 @@ Row = tuple[str, Mapping[str, int], str]
 def print_fleet(rows: Sequence[Row], errors: Sequence[str], line: str, console: Console) -> None:
     """Print all rows in their order, what went wrong, and the line."""
     cells: list[tuple[str, ...]] = [('repository', *COLUMNS, 'result')]
-    for name, counts, told in rows:
+    for name, counts, words in rows:
         numbers = (str(counts[column]) if column in counts else '-' for column in COLUMNS)
-        cells.append((one_line(name), *numbers, one_line(told)))
+        cells.append((one_line(name), *numbers, one_line(words)))
     print_rows(cells, console)
     for error in errors:
         console.print(one_line(error), soft_wrap=True)
@@ -31,6 +31,6 @@ def fleet_line(done: int, total: int, found: Mapping[str, int]) -> str:
     """Say how many were checked, and what was found in them."""
     kinds = [counted(found[kind], kind) for kind in COLUMNS[2:5] if found.get(kind)]
     verdicts = counted(found['undecided'], 'verdicts') if found.get('undecided') else ''
-    told = ', '.join(kinds) or 'no problems'
+    words = ', '.join(kinds) or 'no problems'
     more = f'; {verdicts} undecided' if verdicts else ''
-    return f'Found {told} in {done} of {total} repositories{more}'
+    return f'Found {words} in {done} of {total} repositories{more}'

@@ -17,7 +17,7 @@ class Paths:
     Folders that shown paths are relative to.
 
     :param here: the current folder.
-    :param root: of the repository; empty when nobody knows it.
+    :param root: of the repository; empty if unknown.
     """
 
     here: Path
@@ -43,5 +43,5 @@ class Paths:
 
     def remarks(self, finding: Finding) -> Sequence[Remark]:
         """Give the remarks of a finding at shown places, those that lead to it first."""
-        told = (*finding.chain, *finding.related)
-        return [replace(remark, place=self.of(remark.place)) for remark in told]
+        remarks = (*finding.chain, *finding.related)
+        return [replace(remark, place=self.of(remark.place)) for remark in remarks]

@@ -37,7 +37,7 @@ def console_for(stream: TextIO) -> Console:
     is_styled = Console(file=stream, force_terminal=forced).is_terminal
     shown = cast(TextIO, Shown(stream, styled=is_styled, in_log=True))
     target = cast(TextIO, Unpadded(shown))
-    return _Telling(
+    return _ReportConsole(
         file=target,
         force_terminal=forced,
         width=width,
@@ -47,7 +47,7 @@ def console_for(stream: TextIO) -> Console:
     )
 
 
-class _Telling(Console):
+class _ReportConsole(Console):
     """A console where a reader that leaves is an error like any other."""
 
     def on_broken_pipe(self) -> None:

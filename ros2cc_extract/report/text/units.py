@@ -52,8 +52,8 @@ def print_units(
 
 
 def _print_block(row: Row, console: Console) -> None:
-    told = f'{executor_words(row.unit.executor)}, {counted(len(row.unit.callbacks), "callbacks")}'
-    console.print(Text.assemble('checked ', (row.nodes, 'bold'), f': {told}'), soft_wrap=True)
+    text = f'{executor_words(row.unit.executor)}, {counted(len(row.unit.callbacks), "callbacks")}'
+    console.print(Text.assemble('checked ', (row.nodes, 'bold'), f': {text}'), soft_wrap=True)
     signs = _signs(console)
     line = Text('  ')
     for each in row.promises:
@@ -67,8 +67,8 @@ def _print_block(row: Row, console: Console) -> None:
         console.print(f'  ? {", ".join(dict.fromkeys(claims))}: {reason}', soft_wrap=True)
     for each in row.promises:
         if each.mark is Mark.KEPT and each.reason:
-            told = f'  {signs[each.mark]} {each.promise.value}, {one_line(each.reason)}'
-            console.print(told, soft_wrap=True)
+            text = f'  {signs[each.mark]} {each.promise.value}, {one_line(each.reason)}'
+            console.print(text, soft_wrap=True)
 
 
 def _reasons(rows: Sequence[Row]) -> dict[str, list[str]]:
@@ -99,8 +99,8 @@ def _print_rows(rows: Sequence[Row], console: Console) -> None:
         console.print(f'{_left_out(rows[MOST_ROWS:])}; --verbose shows them')
     reasons = sorted(_reasons(rows).items(), key=lambda item: -len(item[1]))
     for reason, claims in reasons[:MOST_REASONS]:
-        told = Text(f'? {_times(len(claims))}: {reason}', overflow='ellipsis', no_wrap=True)
-        console.print(told)
+        text = Text(f'? {_times(len(claims))}: {reason}', overflow='ellipsis', no_wrap=True)
+        console.print(text)
     if len(reasons) > MOST_REASONS:
         left = counted(len(reasons) - MOST_REASONS, 'more reasons')
         console.print(f'? {left}; --verbose shows them')

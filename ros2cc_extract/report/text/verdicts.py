@@ -30,7 +30,7 @@ def print_table(verification: Verification, console: Console, *, details: bool) 
 
     :param details: with expression and time, as the paper's table has them.
     """
-    # Queries of somebody else may have no words but their expression.
+    # Foreign queries may have no words but their expression.
     has_words = any(result.words != result.formula for result in verification.results)
     titles = ['expression', 'verdict', 'time'] if details else ['verdict']
     rows = table('  #', *(['query'] if has_words or not details else []), *titles)

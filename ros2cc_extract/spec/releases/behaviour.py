@@ -38,7 +38,7 @@ class Behaviour:
 
     def holds(self, version: str | None) -> bool | None:
         """
-        Tell whether a release behaves so.
+        Return whether a release behaves so.
 
         :param version: a release, a distribution, or ``None`` for all that are supported.
         :return: ``None`` where releases of it differ, or nothing is known.
@@ -58,7 +58,7 @@ class Behaviour:
         return False if self._is_over(release) else _has_come(release, self.since)
 
     def _is_over(self, release: Release) -> bool:
-        """A line of which no end is known goes on."""
+        """A line without a known end goes on."""
         if not self.until:
             return False
         end = self.until.get(release[0])
@@ -69,7 +69,7 @@ class Behaviour:
         before, after = self.holds(old), self.holds(new)
         return before is not after and None not in (before, after)
 
-    def told(self, version: str | None) -> str:
+    def words_for(self, version: str | None) -> str:
         """What a release does, in words."""
         holds = self.holds(version)
         if holds is None:

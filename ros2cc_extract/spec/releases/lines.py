@@ -82,7 +82,7 @@ def newest_of(version: str) -> str:
 
 def judged_as(version: str) -> str | None:
     """
-    What a release is judged as that nobody has looked at, for the reader.
+    What an unexamined release is judged as, for the reader.
 
     :return: ``None`` for one that was, or that is no release.
     """
@@ -92,11 +92,11 @@ def judged_as(version: str) -> str | None:
     line, known = _BY_MAJOR.get(release[0]), max(_BY_MAJOR)
     if line is not None and release <= line.newest:
         return None
-    told = f'rclpy {text_of(release)} is judged as'
+    words = f'rclpy {text_of(release)} is judged as'
     if line is None and release[0] < known:
-        return f'{told} a release of a line that is not supported; those are {_SUPPORTED}'
+        return f'{words} a release of a line that is not supported; those are {_SUPPORTED}'
     newest = (line or _BY_MAJOR[known]).newest
-    return f'{told} {text_of(newest)}, the newest known'
+    return f'{words} {text_of(newest)}, the newest known'
 
 
 def representatives(version: str | None, changes: Iterable[Release]) -> Iterator[Release]:

@@ -38,7 +38,7 @@ def page() -> str:
 
 
 def _picture() -> Iterator[str]:
-    yield '## Who behaves how\n'
+    yield '## Behaviour by release\n'
     heads = [f'{line.distro.capitalize()} {line.major}' for line in LINES]
     yield f'| | {" | ".join(heads)} |'
     yield '|---' * (len(LINES) + 1) + '|'
@@ -56,8 +56,8 @@ def _cell(row: Behaviour, line: Line) -> str:
     if holds is not None:
         return 'yes' if holds else 'no'
     since, until = row.since.get(line.major), row.until.get(line.major)
-    told = [f'from {text_of(since)} on'] if since and since > line.oldest else []
-    return ', '.join([*told, *([f'before {text_of(until)}'] if until else [])]) or 'not known'
+    words = [f'from {text_of(since)} on'] if since and since > line.oldest else []
+    return ', '.join([*words, *([f'before {text_of(until)}'] if until else [])]) or 'not known'
 
 
 def _details(what: str, rows: Iterable[Behaviour]) -> Iterator[str]:

@@ -30,7 +30,7 @@ class Setting:
 
     @property
     def release(self) -> str:
-        """One of them, for whom a unit is judged."""
+        """One of them, for which a unit is judged."""
         return text_of(self.releases[-1])
 
 

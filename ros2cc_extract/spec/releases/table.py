@@ -13,7 +13,7 @@ from ros2cc_extract.spec.releases.behaviour import Behaviour
 
 TASKS_OLDEST_FIRST = Behaviour(
     name='tasks-oldest-first',
-    concerns='who is served first of several tasks',
+    concerns='which of several tasks is served first',
     without='the task that was made last is served first',
     having='the task that was made first is served first',
     since={3: (3, 3, 21), 4: (5, 0, 0), 7: (7, 1, 9), 8: (8, 0, 0)},
@@ -56,8 +56,8 @@ EXCEPTION_AFTER_AWAIT_LOST = Behaviour(
 )
 SPIN_REFUSED_TWICE = Behaviour(
     name='spin-refused-twice',
-    concerns='who refuses to be spun a second time',
-    without='nobody: a spin inside a callback serves others meanwhile',
+    concerns='which executors refuse to be spun a second time',
+    without='none: a spin inside a callback serves others meanwhile',
     having='an executor that spins raises `RuntimeError: Executor is already spinning`',
     since={7: (7, 1, 9), 9: (9, 1, 5), 10: (10, 0, 1)},
     source='ros2/rclpy pull request 1510, `executors.py` (`spin`, `spin_once`)',
@@ -75,7 +75,7 @@ NODE_STAYS = Behaviour(
 )
 TIMEOUT_KEEPS_HARVEST = Behaviour(
     name='timeout-keeps-harvest',
-    concerns='whom a spin with a time-out serves while a callback awaits',
+    concerns='what a spin with a time-out serves while a callback awaits',
     without='the callback that awaits, again and again',
     having='all that are ready, one after the other',
     since={3: (3, 3, 11), 7: (7, 0, 0)},
@@ -106,7 +106,7 @@ SHUTDOWN_DESTROYS_NODES = Behaviour(
 EVENTS_EXECUTOR = Behaviour(
     name='events-executor',
     concerns='whether there is an `EventsExecutor`',
-    without='there is none: `ModuleNotFoundError: rclpy.experimental`',
+    without='no: `ModuleNotFoundError: rclpy.experimental`',
     having='there is one',
     since={7: (7, 1, 4), 9: (9, 0, 0)},
     source='`experimental/events_executor.py`',

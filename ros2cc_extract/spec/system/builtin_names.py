@@ -1,5 +1,5 @@
 """
-What every node has in the graph by itself, and nobody has written.
+What every node has in the graph by itself, without user code.
 
 Source: rclpy and rclcpp (Jazzy): parameters, time, logging, type descriptions, life cycle.
 """

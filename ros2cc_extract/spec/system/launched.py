@@ -1,4 +1,4 @@
-"""A process as a launch file starts it: what it runs, and what it is told."""
+"""A process as a launch file starts it: what it runs, and what it is given."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.system.names import Remap
 
 Fact = str | Unknown
-"""A text, or why it could not be told."""
+"""A text, or why it is unknown."""
 ANY_NODE = '/**'
 ENTRY, RECORDED, RUNNING = 'entry', 'recorded', 'running'
 """Kinds of processes that no launch file starts."""
@@ -38,11 +38,11 @@ class Launched:
         code, ``RECORDED`` of a recording, ``RUNNING`` of the graph.
     :param package: ``None`` for what is started by its file.
     :param name: that the launch gives to every node of the process; ``None`` where the code does.
-    :param namespace: likewise.
+    :param namespace: the same for the namespace.
     :param command: of ``ExecuteProcess``, its words.
     :param conditional: why it may not be started.
     :param later: what begins it, where that is not the start of the launch.
-    :param open: facts that could not be told, with why: ``parameters``, ``remappings`` …
+    :param open: facts that are unknown, with why: ``parameters``, ``remappings`` …
     """
 
     kind: str

@@ -1,7 +1,7 @@
 """
 A system: its processes, their units as today, their nodes with resolved names, their connections.
 
-A process whose code is not in sight is *outside*: it is known that it is there, not what it does.
+A process without known code is *outside*: it is known that it runs, not what it does.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class SystemAwaited:
     A service or action that a process waits for in its set-up, without an end.
 
     :param what: ``service`` or ``action``.
-    :param answers: it waits for an answer, not only until somebody offers it.
+    :param answers: it waits for an answer, not only until a node offers it.
     """
 
     what: str
@@ -85,7 +85,7 @@ class Process:
     :param name: unique in the system.
     :param launched: how the launch file starts it.
     :param file: the Python file that it runs, as shown; ``entry`` where in it, as of its units.
-    :param outside: why its code is not in sight.
+    :param outside: why its code is not known.
     :param whole: its working units in one, with the names that they have together, where there are
         several and the code was read for this.
     """
@@ -107,7 +107,7 @@ class Process:
 
 @dataclass(frozen=True)
 class End:
-    """One end of a connection, with whose it is."""
+    """One end of a connection, with its node."""
 
     process: Process
     node: SystemNode
@@ -163,7 +163,7 @@ class System:
 
     @cached_property
     def is_whole(self) -> bool:
-        """Whether all code and all names are in sight."""
+        """Whether all code and all names are known."""
         are_known = all(
             process.outside is None and all(node.open is None for node in process.nodes)
             for process in self.processes

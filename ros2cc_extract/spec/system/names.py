@@ -45,7 +45,7 @@ class Remap:
 
 
 def read_remap(text: str, source: Place | None = None) -> Remap | None:
-    """Read ``[node:][kind://]old:=new``; ``None`` where it is none."""
+    """Read ``[node:][kind://]old:=new``; ``None`` for another text."""
     left, assigns, new = text.partition(':=')
     match = _RULE.fullmatch(left.strip()) if assigns else None
     if match is None:

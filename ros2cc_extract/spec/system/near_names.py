@@ -24,7 +24,7 @@ def how_near(one: str, other: str) -> str | None:
 
 
 def _is_slip(one: str, other: str, part: str, other_part: str) -> bool:
-    """Whether two names differ by one letter in a part that is long enough to be told by it."""
+    """Whether two names differ by one letter in a part that is long enough."""
     is_long = min(len(part), len(other_part)) >= _SHORTEST
     return is_long and not _differ_by_number(one, other) and _is_one_slip(one, other)
 

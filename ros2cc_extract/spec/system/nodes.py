@@ -1,4 +1,4 @@
-"""From what the code says of a node and what the launch tells its process to resolved names."""
+"""Resolve names from what the code says of a node and what the launch gives its process."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ _PARAMETER = 'name follows from parameter'
 def system_node(graph: NodeGraph, launched: Launched) -> SystemNode:
     """The node as the graph has it."""
     if graph.apart is not None:
-        told = (*launched.open, ('remappings', graph.apart))
-        launched = replace(launched, name=graph.apart, namespace=graph.apart, open=told)
+        open_facts = (*launched.open, ('remappings', graph.apart))
+        launched = replace(launched, name=graph.apart, namespace=graph.apart, open=open_facts)
     name: Fact = launched.name if launched.name is not None else graph.name
     namespace: Fact = launched.namespace if launched.namespace is not None else graph.namespace
     known = naming(

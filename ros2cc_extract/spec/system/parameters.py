@@ -42,7 +42,7 @@ def parameters_for(
 
 
 def are_all_known(launched: Launched) -> bool:
-    """Whether nothing else may be set than what is in sight."""
+    """Whether only known parameters may be set."""
     return not any(fact in _OPEN for fact, _ in launched.open)
 
 

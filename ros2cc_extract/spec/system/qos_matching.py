@@ -28,8 +28,8 @@ def mismatch(offered: Qos, asked: Qos) -> str | None:
         if isinstance(gives, Unknown) or isinstance(wants, Unknown) or wants is None:
             continue
         if gives is None or gives > wants:
-            told = 'none' if gives is None else f'{gives:g} s'
-            return f'{words}: offered {told}, asked for {wants:g} s'
+            offer = 'none' if gives is None else f'{gives:g} s'
+            return f'{words}: offered {offer}, asked for {wants:g} s'
     return None
 
 

@@ -41,7 +41,7 @@ class StartWait:
 
     @property
     def key(self) -> Key:
-        """What tells it apart."""
+        """What distinguishes it."""
         return self.process.name, self.awaited.source
 
 
@@ -57,12 +57,12 @@ def start_circles(system: System) -> Iterator[tuple[StartWait, ...]]:
     """
     offers = _offers(system)
     stuck = _stuck({each.key: each for each in _waits(system, offers)}, offers)
-    told: set[frozenset[str]] = set()
+    known: set[frozenset[str]] = set()
     for wait in stuck.values():
         circle = _circle(wait, stuck, offers)
         names = frozenset(each.process.name for each in circle)
-        if circle and names not in told:
-            told.add(names)
+        if circle and names not in known:
+            known.add(names)
             yield tuple(circle)
 
 
@@ -89,7 +89,7 @@ def _offers(system: System) -> dict[_Name, list[End]]:
 def _stuck(
     waits: Mapping[Key, StartWait], offers: Mapping[_Name, list[End]]
 ) -> dict[Key, StartWait]:
-    """What is left when every wait that may end has ended; what nobody offers, somebody may."""
+    """What is left when every wait that may end has ended; an unknown node may offer the rest."""
     left = dict(waits)
     while True:
         over = [key for key, wait in left.items() if not _needs(wait, left, offers)]

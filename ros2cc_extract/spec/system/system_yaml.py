@@ -80,7 +80,7 @@ def _launched(launched: Launched) -> dict[str, Any]:
         'remaps': [str(each) for each in launched.remaps],
         'parameters': [
             _filled({'name': p.name, 'value': _value(p.value), 'node': p.node})
-            for p in _told(launched)
+            for p in _parameters(launched)
         ],
         'conditional': _reason(launched.conditional),
         'begun_by': launched.later,
@@ -89,8 +89,8 @@ def _launched(launched: Launched) -> dict[str, Any]:
     return _filled(data)
 
 
-def _told(launched: Launched) -> Iterator[SetParameter]:
-    """Parameters; the pattern of the node is told where it is not for all."""
+def _parameters(launched: Launched) -> Iterator[SetParameter]:
+    """Parameters; the pattern of the node is written if it is not for all."""
     for each in launched.parameters:
         yield each if each.node != ANY_NODE else replace(each, node='')
 

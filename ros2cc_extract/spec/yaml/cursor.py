@@ -64,7 +64,7 @@ class Cursor:
         """
         Read a mapping of known keys.
 
-        :raises SpecFormatError: when it is none, or has an unknown, repeated or missing key.
+        :raises SpecFormatError: if it is no mapping, or has an unknown, repeated or missing key.
         """
         if not isinstance(self.node, yaml.MappingNode):
             raise self._mismatch('a mapping')
@@ -88,7 +88,7 @@ class Cursor:
         """
         Read a list.
 
-        :raises SpecFormatError: when it is none, or shorter than ``at_least``.
+        :raises SpecFormatError: if it is no list, or shorter than ``at_least``.
         """
         if not isinstance(self.node, yaml.SequenceNode):
             raise self._mismatch('a list')
@@ -98,7 +98,7 @@ class Cursor:
             yield Cursor(child, self.file, f'{self.path}[{index}]')
 
     def text(self) -> str:
-        """Read a text; ``on``, ``12`` and the like are none unless they are quoted."""
+        """Read a text; ``on``, ``12`` and the like are no texts unless quoted."""
         if self.kind != 'str':
             mend = 'put it in quotes' if isinstance(self.node, yaml.ScalarNode) else ''
             raise self._mismatch('a text', mend)

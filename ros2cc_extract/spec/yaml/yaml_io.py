@@ -51,7 +51,7 @@ from ros2cc_extract.spec.yaml.key_tables import (
 MOST_BYTES = 8_000_000
 SPEC_VERSION = 2
 READ_VERSIONS = (1, 2)
-"""Version 1 knows no wakers and no activities: who ends its waits is then open."""
+"""Version 1 knows no wakers and no activities: what ends its waits is then open."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -279,7 +279,7 @@ def _represent_flow(dumper: yaml.SafeDumper, data: Flow) -> yaml.Node:
 
 
 def _represent_text(dumper: yaml.SafeDumper, data: str) -> yaml.Node:
-    """On one line, whatever is in it; else its own lines could pass for others."""
+    """Write any text on one line; else its own lines could pass for others."""
     style = None if data.isprintable() else '"'
     return dumper.represent_scalar('tag:yaml.org,2002:str', data, style=style)
 

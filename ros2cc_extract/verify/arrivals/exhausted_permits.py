@@ -3,7 +3,7 @@ A last look at waits that end by themselves a number of times: with runs enough 
 
 The value of a semaphore and the room in a bounded queue are used up by runs before. A model of
 one arrival for each has none, so it leaves such a wait open, and claims stay in doubt. Here data
-arrives so often that they are used up in the run itself, as far as somebody takes more than is
+arrives so often that they are used up in the run itself, as far as a doer takes more than is
 given back. What such a run refutes is refuted; all else stays as it was.
 """
 
@@ -102,7 +102,7 @@ def _blocks(actor: Actor, spec: Spec, most: Mapping[str, int]) -> tuple[Blocking
 
 
 def _is_of_each_run(block: Blocking, actor: Actor, spec: Spec) -> bool:
-    """Whether each run of ``actor`` starts what it waits for the end of, and nobody else does."""
+    """Whether each run of ``actor`` starts what it waits for the end of, and nothing else does."""
     if block.call not in FOR_RUNS or block.needs is not Needs.ONCE or not block.wakers:
         return False
     waiting = [b for a in all_actors(spec) for b in a.blocking if b.resource == block.resource]
@@ -113,7 +113,7 @@ def _is_of_each_run(block: Blocking, actor: Actor, spec: Spec) -> bool:
 
 
 def _arrivals(closed: ClosedSpec, runs: int) -> dict[str, int]:
-    """So many for each, also for who asks or starts those who take, and then those of a crowd."""
+    """So many for each, also for what asks or starts the takers, and then those of a crowd."""
     arrivals = {}
     crowds = crowding(closed.spec)
     for actor in all_actors(closed.spec):

@@ -30,7 +30,7 @@ def ask_again(
     """
     Ask again what one arrival for each has not refuted, and keep what is refuted or open now.
 
-    The search has its own bound on states: who waits may overlap itself in many a unit. What no
+    The search has its own bound on states: a waiting callback often may overlap itself. What no
     number of arrivals shows leaves open what is not refuted.
     """
     of_ends = [query for query in queries if query.family in OF_ENDS]
@@ -78,7 +78,7 @@ def _arrivals(found: Found, closed: ClosedSpec) -> Mapping[str, int]:
 
 
 def _may_be_of(query: Query, arrivals: Mapping[str, int]) -> bool:
-    """Tell whether runs that fill the threads may refute it: who starves has none of its own."""
+    """Return whether runs that fill the threads may refute it: a starved one has no thread."""
     return query.family is not Family.STARVATION or not arrivals.keys() <= set(query.callbacks)
 
 

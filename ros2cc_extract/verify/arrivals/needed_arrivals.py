@@ -15,10 +15,10 @@ TWO_ARRIVALS = 2
 
 def needs_two_arrivals(query: Query, spec: Spec, profile: Profile) -> bool:
     """
-    Tell whether a callback may overlap itself as far as groups and threads go.
+    Return whether a callback may overlap itself as far as groups and threads go.
 
     With one arrival it runs once, and nothing could refute that it never does. A member of a
-    mutually exclusive group, and whoever runs on an only thread, cannot whatever arrives.
+    mutually exclusive group, and a callback on an only thread, never overlaps itself.
     """
     if profile is not Profile.RCLPY or query.family is not Family.SELF_OVERLAP:
         return False
@@ -30,7 +30,7 @@ def needs_two_arrivals(query: Query, spec: Spec, profile: Profile) -> bool:
 
 def crowding(spec: Spec) -> Mapping[str, int]:
     """
-    Who may fill all threads with runs of its own, and how many runs that takes.
+    The callbacks that may fill all threads with their own runs, and how many runs that takes.
 
     A callback of a reentrant group holds a thread in each run that waits. One that keeps a lock
     over an ``await`` holds none there, but each further run holds the thread on which it waits

@@ -1,5 +1,5 @@
 """
-Who takes what each wait uses up, from somebody who may not give it once more.
+Callbacks that take what each wait uses up, from a giver that may not give it once more.
 
 With one arrival for each callback a wait of the second run does not exist: what one run gave
 serves the one run that takes. A timer that takes from a queue each period, and another that puts
@@ -55,7 +55,7 @@ def not_looked_at(spec: Spec, results: Mapping[Key, QueryResult]) -> str:
 def _takers(
     spec: Spec, results: Mapping[Key, QueryResult]
 ) -> Iterator[tuple[Callback, NamedWait, int]]:
-    """Give who takes what may not be given once more, and in how many runs that is used up."""
+    """Return what takes what may not be given once more, and in how many runs it is used up."""
     for callback in spec.callbacks:
         for wait in () if callback.one_shot else waits_of(callback, spec):
             is_each = wait.resource is not None and wait.resource.is_each and not wait.is_signal
@@ -75,7 +75,7 @@ def _given(wait: NamedWait, spec: Spec, results: Mapping[Key, QueryResult]) -> i
 
 
 def _gives_again(giver: Actor, results: Mapping[Key, QueryResult]) -> bool:
-    """Whether it runs as often as somebody needs it, and always comes to its end."""
+    """Whether it runs as often as it is needed, and always comes to its end."""
     if any(block.call in (ENDLESS_LOOP, WORKING_LOOP) for block in giver.blocking):
         return True  # it may give in each round
     result = results.get((Family.PROGRESS, (giver.name,), ()))

@@ -1,7 +1,7 @@
 """
 Structural starvation: can others keep a callback from running forever, however fair threads are?
 
-Asked callback by callback, of a slice of the unit. Whoever starves in a slice starves in the
+Asked callback by callback, of a slice of the unit. What starves in a slice starves in the
 unit: there the others may just get no data. And the slice holds the rivals that matter
 (docs/profile-rclpy.md, *Slices*).
 """
@@ -30,7 +30,7 @@ from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Callback
 from ros2cc_extract.verify.results.evidence import LOST, Evidence
 from ros2cc_extract.verify.results.load import served_before
-from ros2cc_extract.verify.results.run_evidence import Names, tell
+from ros2cc_extract.verify.results.run_evidence import Names, describe
 from ros2cc_extract.verify.search.known_answers import Answered, Entry, Role, Shelf
 from ros2cc_extract.verify.slices.slice_shapes import outline_of
 
@@ -79,7 +79,7 @@ def structural_verdicts(
             known.verdict,
             known.reason,
             known.seconds,
-            partial(_tell, part, callback.name, engine, limits) if known.has_run else None,
+            partial(_described, part, callback.name, engine, limits) if known.has_run else None,
         )
 
 
@@ -95,7 +95,7 @@ def slice_for(callback: Callback, closed: ClosedSpec) -> ClosedSpec:
     """
     Keep a callback and its rivals: members of its group, the last served before it first.
 
-    Its waits are left out: whether whoever waits comes to an end is a question of its own.
+    Its waits are left out: whether a waiting callback comes to an end is a question of its own.
     """
     spec = closed.spec
     earlier = served_before(callback, spec)[::-1]
@@ -142,6 +142,6 @@ def _ask(part: ClosedSpec, name: str, engine: EngineKind, limits: Limits) -> Che
     return result
 
 
-def _tell(part: ClosedSpec, name: str, engine: EngineKind, limits: Limits) -> Evidence:
+def _described(part: ClosedSpec, name: str, engine: EngineKind, limits: Limits) -> Evidence:
     run = _ask(part, name, engine, limits).answers[0].path
-    return LOST if run is None else tell(run, Names.of(part.spec))
+    return LOST if run is None else describe(run, Names.of(part.spec))

@@ -34,7 +34,7 @@ def left_out_of_deadlocks(unit: Spec, profile: Profile) -> str:
     """
     Begin the words on deadlocks where the model leaves waits out; empty where it does not.
 
-    Nobody shall read that there is no deadlock beside a finding that shows one.
+    A report must not say that there is no deadlock beside a finding that shows one.
     """
     waits = any(any(waits_of(callback, unit)) for callback in unit.callbacks)
     return 'blocking calls left out, ' if profile is Profile.PAPER and waits else ''
@@ -48,7 +48,7 @@ def _threads_of_no_use(unit: Spec, profile: Profile) -> Iterator[str]:
         return
     if profile is Profile.RCLPY:
         yield (
-            f'{executor.kind} runs callbacks on one thread, whatever number is asked; to try a '
+            f'{executor.kind} runs callbacks on one thread, for any number given; to try a '
             'pool, write kind: MultiThreadedExecutor into the specification'
         )
     else:
@@ -61,7 +61,7 @@ def _threads_of_no_use(unit: Spec, profile: Profile) -> Iterator[str]:
 @dataclass(frozen=True)
 class OpenEnd:
     """
-    A wait of which no model knows how it ends.
+    A wait whose end no model knows.
 
     :param why: in words; empty where the wait itself says it.
     """
@@ -72,9 +72,9 @@ class OpenEnd:
 
 def open_ends(unit: Spec) -> dict[str, tuple[OpenEnd, ...]]:
     """
-    Give for each doer that somebody wrote the waits of which no model knows how they end.
+    Return, for each doer of the user, the waits whose ends no model knows.
 
-    Those that somebody outside the unit ends are among them: models take it that he does.
+    Those that code outside the unit ends are among them: models assume that it does.
     """
     written = tuple(callback for callback in unit.callbacks if not callback.builtin)
     doers: tuple[Actor, ...] = (*written, *unit.activities)

@@ -82,7 +82,7 @@ class Event:
 
     :param kind: first word of a key of ``WORDS``; ``form`` is the rest.
     :param who: name of the callback it is about.
-    :param by: who hands it to the pool.
+    :param by: what hands it to the pool.
     :param group: that opens or closes.
     :param needed: name of the callback that must run before a wait ends, or that has the lock.
     :param resource: that is waited for, or gets a signal.
@@ -126,7 +126,7 @@ class Event:
 
     @property
     def awaited(self) -> str | None:
-        """For whom or what a wait is, in words."""
+        """What a wait is for, in words."""
         return self.awaited_in({})
 
     @property

@@ -20,8 +20,8 @@ class Sentence:
     """
     What one process does in a step.
 
-    :param lane: name of the process whose edge it is: a thread, the executor, a group …
-    :param event: what it is; ``None`` in a model of somebody else.
+    :param lane: name of the process that has the edge: a thread, the executor, a group …
+    :param event: what it is; ``None`` in a foreign model.
     """
 
     lane: str
@@ -39,7 +39,7 @@ class Moment:
     """
     One step of a run that means something to a developer.
 
-    :param number: 1-based, counts told steps only.
+    :param number: 1-based, counts only steps with words.
     :param sentences: one per edge that has words.
     :param places: of the callbacks named, in the order of naming.
     :param changes: variables and locations that changed, with their new values.
@@ -54,7 +54,7 @@ class Moment:
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """What happens in it; nothing in a model of somebody else."""
+        """What happens in it; nothing in a foreign model."""
         return tuple(s.event for s in self.sentences if s.event is not None)
 
 
@@ -70,7 +70,7 @@ class Evidence:
     :param closing: what the run ends in, in a sentence.
     :param steps: every step that was taken, also those without words, in the same form.
     :param cycle_step: number of the step from which the run repeats forever.
-    :param origin: the run that was told, step by step; it stays behind when evidence is pickled,
+    :param origin: the run that it words, step by step; it stays behind when evidence is pickled,
         as it holds the whole model.
     """
 

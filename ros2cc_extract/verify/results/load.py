@@ -1,7 +1,7 @@
 """
-How busy those are that a callback has to wait for: starvation told by periods and durations.
+How busy those are that a callback has to wait for: starvation judged by periods and durations.
 
-The models know no times: they say whether somebody *may* be kept from running forever. Here the
+The models know no times: they say whether a callback *may* be kept from running forever. Here the
 rates decide. Source of the rules: measured on rclpy 7.1.6 and 9.1.2 (docs/profile-rclpy.md,
 *Times*): on several threads an exclusive group starts over from its first member after each
 end, so a member gets what those served before it leave; one thread serves all in turns.
@@ -80,14 +80,14 @@ class Load:
         if self.kind is LoadKind.UNKNOWN:
             can_starve = self.serving is Serving.LEFTOVER
             return self.kind.value if can_starve else 'delayed under overload; rates unknown'
-        told = f'{self.kind.value} (load {self.before:.2f}{self._measured}'
+        start = f'{self.kind.value} (load {self.before:.2f}{self._measured}'
         if self.refused is not None:
-            return f'{told}; {self.refused})'
+            return f'{start}; {self.refused})'
         if self.kind is LoadKind.UNDECIDED:
-            return f'{told}; {self.contenders} may want a thread at a time, and there are fewer)'
+            return f'{start}; {self.contenders} may want a thread at a time, and there are fewer)'
         if self.kind is LoadKind.STARVED or self.runs is None or self.runs >= 1:
-            return f'{told})'
-        return f'{told}; about {self.runs:.0%} of its arrivals are served)'
+            return f'{start})'
+        return f'{start}; about {self.runs:.0%} of its arrivals are served)'
 
     @property
     def _measured(self) -> str:
@@ -99,7 +99,7 @@ class Load:
 
 def load_of(spec: Spec, callback: Callback, demands: Mapping[str, Demand] | None = None) -> Load:
     """
-    Tell what becomes of ``callback`` at the rates that ``spec`` states or a run has measured.
+    Return what becomes of ``callback`` at the rates that ``spec`` states or a run has measured.
 
     :param demands: of ``demands_of``, where several are asked for.
     """
@@ -123,12 +123,12 @@ def load_of(spec: Spec, callback: Callback, demands: Mapping[str, Demand] | None
 
 def _contenders(spec: Spec, demands: Mapping[str, Demand]) -> int:
     """
-    Count who may want a thread at the same time.
+    Count the callbacks that may want a thread at the same time.
 
-    With more of them than threads, members of one group wait in the queue together, and who is
+    With more of them than threads, members of one group wait in the queue together, and which is
     served later may be refused each time, below full load too (H. Teper et al., EMSOFT 2024; seen
     on rclpy 7.1.6: two threads, three groups, a member with 1 % of the work of the others never
-    ran). Which it is, only the times of all of them tell.
+    ran). Only the times of all of them show which it is.
     """
     exclusive = {g.name for g in spec.groups if g.type is GroupType.EXCLUSIVE}
     counted = _counted(spec)
@@ -162,12 +162,12 @@ def served_before(callback: Callback, spec: Spec) -> tuple[Callback, ...]:
 
 
 def _counted(spec: Spec) -> list[Callback]:
-    """Without rclpy's own entities: nobody asks them often, unless a run has measured it."""
+    """Without rclpy's own entities: they are seldom asked, unless a run has measured it."""
     return [c for c in spec.callbacks if not c.builtin or c.measured is not None]
 
 
 def _is_one_thread(spec: Spec) -> bool:
-    """A pool of one worker refuses nobody: who is queued runs next."""
+    """A pool of one worker refuses nothing: what is queued runs next."""
     kind = executor_kind(spec)
     return kind is not ExecutorKind.MULTI_THREADED or len(spec.executor.threads) == 1
 
@@ -216,7 +216,7 @@ def _refusals(callback: Callback) -> str | None:
 
 
 def _wanted(own: Demand, before: float) -> float:
-    """What it asks for; runs of a busy node tell how often it ran, not how often it should."""
+    """What it asks for; runs of a busy node show how often it ran, not how often it should."""
     if not own.is_known:
         return 1.0
     was_busy = own.is_rate_measured and before + own.load >= SATURATED_AS_MEASURED
@@ -224,7 +224,7 @@ def _wanted(own: Demand, before: float) -> float:
 
 
 def _fair_share(wanted: float, others: Sequence[Demand]) -> float:
-    """What it would get of the group if nobody came before anybody; at most what it wants."""
+    """What it would get of the group if all had equal priority; at most what it wants."""
     rest, sharers = 1.0, len(others) + 1
     for load in sorted(other.load for other in others):
         if load >= rest / sharers:

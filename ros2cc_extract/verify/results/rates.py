@@ -1,5 +1,5 @@
 """
-How often and how long a callback wants to run, as far as anybody has said or measured.
+How often and how long a callback wants to run, as far as it was stated or measured.
 
 Stated by hand, measured in a live run, or read from the source: the first that is there.
 """
@@ -84,7 +84,7 @@ def period_of(callback: Callback) -> float | None:
 
 def with_arrivals(units: Sequence[Spec]) -> tuple[Spec, ...]:
     """
-    The units, subscriptions with the period of who publishes for them in any of the units.
+    The units, subscriptions with the period of their publishers in any of the units.
 
     The publisher may be served by another executor, or stand in another program of the sources.
     """
@@ -101,7 +101,7 @@ Publishers = Mapping[str, Mapping[object, Callback]]
 
 
 def _publishers(specs: Iterable[Spec]) -> Publishers:
-    """Who publishes which topic; one node may be served in several programs."""
+    """What publishes which topic; one node may be served in several programs."""
     found: dict[str, dict[object, Callback]] = {}
     for spec in specs:
         for callback in spec.callbacks:
@@ -130,7 +130,7 @@ def _duration_s(callback: Callback) -> tuple[float | None, bool]:
 
 
 def least_slept_s(blocking: Iterable[Blocking]) -> float:
-    """Seconds that a run sleeps whatever branches it takes."""
+    """Seconds that a run sleeps on every branch."""
     slept = [b for b in blocking if b.call in _PAUSES and not b.conditional]
     return sum(b.seconds * b.times for b in slept if isinstance(b.seconds, (int, float)))
 

@@ -56,7 +56,7 @@ class QueryResult:
 
     @cached_property
     def evidence(self) -> Evidence | None:
-        """The run behind the verdict, replayed and told when it is first asked for."""
+        """The run behind the verdict, replayed and worded when it is first asked for."""
         assert not isinstance(self.run, NotKept), 'put back before anybody asks'
         return self.run() if callable(self.run) else self.run
 

@@ -1,9 +1,9 @@
 """
-Tells a path of the model as events: which callback, which thread, which group.
+Describe a path of the model as events: which callback, which thread, which group.
 
 Which event an edge is stands in the templates, as the comment of the edge; here its expressions
 are evaluated, and names are put for numbers. So this module knows no template, and a model of
-somebody else is told by its comments or its locations.
+others is described by its comments or its locations.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Names:
 
     :param said: words for names, as a reader knows them.
     :param unsaid: groups that a reader does not know.
-    :param resources: what is waited for, each with the names of those who end waits for it.
+    :param resources: what is waited for, each with the names of those that end waits for it.
     """
 
     callbacks: tuple[str, ...] = ()
@@ -70,19 +70,19 @@ class Names:
         return names[index] if 0 <= index < len(names) else f'{kind} {index}'
 
     def resource(self, index: int) -> dict[str, object]:
-        """Fields of an event about a resource; a number behind the last is none."""
+        """Fields of an event about a resource; a number above the last has none."""
         if index >= len(self.resources):
             return {'resource': None}
         name, wakers = self.resources[index]
         return {'resource': name, 'wakers': wakers, 'needed': None}
 
 
-def tell(run: Run, names: Names) -> Evidence:
+def describe(run: Run, names: Names) -> Evidence:
     """
     Turn a replayed run into moments.
 
     Where comments are annotations, as ours are, steps without one are passed over in ``moments``;
-    of a model of somebody else every step is told, by its comment or else by its locations.
+    of a foreign model every step is described, by its comment or else by its locations.
     """
     edges = (edge for step in run.steps for edge in step.edges)
     is_ours = any(map(_annotation_of, edges))

@@ -12,7 +12,7 @@ from ros2cc_extract.verify.results.evidence import Evidence
 
 
 def doubts_in(run: Evidence, spec: Spec) -> str:
-    """Say what a run that refutes a claim rests on and nobody knows."""
+    """Say what unknown facts a run that refutes a claim rests on."""
     steps = {actor.name: tuple(waits_of(actor, spec)) for actor in actors_of(spec)}
     events = (event for moment in run.moments for event in moment.events)
     return ', '.join(dict.fromkeys(words for event in events for words in _doubts(event, steps)))

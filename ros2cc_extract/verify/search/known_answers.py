@@ -1,7 +1,7 @@
 """
 Answers that hold for every part of one shape, kept within a unit, between units and in the cache.
 
-Only verdicts are kept: who asks for a run has the part searched once more.
+Only verdicts are kept: asking for a run searches the part once more.
 """
 
 from __future__ import annotations

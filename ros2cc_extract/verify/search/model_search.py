@@ -30,7 +30,7 @@ from ros2cc_extract.spec.close import ClosedSpec
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.evidence import Evidence
 from ros2cc_extract.verify.results.results import QueryResult
-from ros2cc_extract.verify.results.run_evidence import Names, tell
+from ros2cc_extract.verify.results.run_evidence import Names, describe
 from ros2cc_extract.verify.results.undecided_reasons import doubts_in
 from ros2cc_extract.verify.search.options import Checker, OnProgress, Options
 from ros2cc_extract.verify.search.reading_deadline import NotReadError, read_in_time
@@ -104,15 +104,17 @@ def _searched(
     )
     if any(answer.is_interrupted for answer in result.answers):
         raise KeyboardInterrupt  # findings need verdicts, and other units may be waiting
-    teller = RunTeller(model, xml, Names.of(closed.spec))
+    describer = RunDescriber(model, xml, Names.of(closed.spec))
     results = {
-        key_of(query): result_of(answer, teller, query.family.value, query.words, query.callbacks)
+        key_of(query): result_of(
+            answer, describer, query.family.value, query.words, query.callbacks
+        )
         for answer, query in zip(result.answers[: len(asked)], asked, strict=True)
     }
     doubted = (query for query in asked if query.whatever is not None)
     for query, answer in zip(doubted, result.answers[len(asked) :], strict=True):
         key = key_of(query)
-        results[key] = _in_spite_of_doubts(results[key], answer, teller, closed.spec)
+        results[key] = _in_spite_of_doubts(results[key], answer, describer, closed.spec)
     return Found(results, result)
 
 
@@ -161,16 +163,18 @@ def _refuted(
     result = search(model, queries=claims)
     if any(answer.is_interrupted for answer in result.answers):
         raise KeyboardInterrupt
-    teller = RunTeller(model, rendered.xml.encode(), Names.of(closed.spec))
+    describer = RunDescriber(model, rendered.xml.encode(), Names.of(closed.spec))
     found = {
-        key_of(query): result_of(answer, teller, query.family.value, query.words, query.callbacks)
+        key_of(query): result_of(
+            answer, describer, query.family.value, query.words, query.callbacks
+        )
         for answer, query in zip(result.answers, asked, strict=False)
     }
     for query, answer in zip(doubted, result.answers[len(asked) :], strict=True):
         known = found[key_of(query)]
         is_refuted = known.verdict is Verdict.NOT_SATISFIED
         if answer.verdict is Verdict.NOT_SATISFIED and not is_refuted:
-            reason = doubts_in(teller.tell(answer), closed.spec)
+            reason = doubts_in(describer.describe(answer), closed.spec)
             found[key_of(query)] = replace(known, reason=reason, in_doubt=True)
     refuted = {
         key: each
@@ -181,14 +185,14 @@ def _refuted(
 
 
 def _in_spite_of_doubts(
-    result: QueryResult, whatever: Answer, teller: RunTeller, spec: Spec
+    result: QueryResult, whatever: Answer, describer: RunDescriber, spec: Spec
 ) -> QueryResult:
-    """A claim is proven only if it holds whatever is not known."""
+    """A claim is proven only if it holds for any value of what is not known."""
     if result.verdict is not Verdict.SATISFIED or whatever.verdict is Verdict.SATISFIED:
         return result
     if whatever.verdict is Verdict.UNDECIDED:
         return replace(result, verdict=Verdict.UNDECIDED, reason=whatever.reason, run=None)
-    reason = doubts_in(teller.tell(whatever), spec)
+    reason = doubts_in(describer.describe(whatever), spec)
     return replace(result, verdict=Verdict.UNDECIDED, reason=reason, run=None, in_doubt=True)
 
 
@@ -235,22 +239,26 @@ def ask_verifyta(
 
 
 @dataclass(frozen=True)
-class RunTeller:
-    """Tells the runs of one model."""
+class RunDescriber:
+    """Describes the runs of one model."""
 
     model: Model
     xml: bytes
     names: Names
 
-    def tell(self, answer: Answer) -> Evidence:
+    def describe(self, answer: Answer) -> Evidence:
         """Replay the run of an answer, and put it into words."""
         run = answer.path
         assert run is not None, 'only asked of answers that have a run'
-        return replace(tell(run, self.names), origin=UppaalRun(self.model, self.xml, run))
+        return replace(describe(run, self.names), origin=UppaalRun(self.model, self.xml, run))
 
 
 def result_of(
-    answer: Answer, teller: RunTeller, family: str | None, words: str, callbacks: tuple[str, ...]
+    answer: Answer,
+    describer: RunDescriber,
+    family: str | None,
+    words: str,
+    callbacks: tuple[str, ...],
 ) -> QueryResult:
     """Tie an answer to its words, and to the run that shows it."""
     return QueryResult(
@@ -261,5 +269,5 @@ def result_of(
         verdict=answer.verdict,
         reason=answer.reason,
         seconds=answer.seconds,
-        run=partial(teller.tell, answer) if answer.replay else None,
+        run=partial(describer.describe, answer) if answer.replay else None,
     )

@@ -21,7 +21,7 @@ OnProgress = Callable[[Progress], None]
 
 
 class Checker(Enum):
-    """Who answers."""
+    """What answers."""
 
     EMBEDDED = 'embedded'
     VERIFYTA = 'verifyta'
@@ -34,7 +34,7 @@ class Options:
 
     :param verifyta: the program, where it is not to be looked for.
     :param jobs: threads that explore one model together; no answer depends on them.
-    :param structural: profile rclpy also asks who starves under unlimited arrivals.
+    :param structural: profile rclpy also asks which callbacks starve under unlimited arrivals.
     :param fills_threads: asks once more, with runs of one callback on all threads.
     :param families: what alone is asked; all that there is where it is left out.
     """

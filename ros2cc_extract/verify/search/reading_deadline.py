@@ -1,4 +1,4 @@
-"""A limit on time that covers reading: units, models and queries of somebody else may be large."""
+"""A limit on time that covers reading: units, foreign models and queries may be large."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def read_in_time(limits: Limits) -> Iterator[Callable[[], None]]:
         raise NotReadError
     seconds = limits.seconds_left
     with alarm(None if seconds is None else seconds + GRACE_S, _AGAIN_S) as disarm:
-        if disarm is None:  # an alarm of somebody else is not ours to hear
+        if disarm is None:  # an alarm of other code is not ours to handle
             yield _nothing
             return
         try:
@@ -65,4 +65,4 @@ def limited_reading(limits: Limits, path: Path) -> Iterator[Callable[[], None]]:
 
 
 def _nothing() -> None:
-    """Nobody waits for it."""
+    """Nothing waits for it."""

@@ -41,9 +41,9 @@ class _Hunt:
 
     def waypoints(self, by_request: Iterable[str]) -> Iterator[str]:
         """
-        Say how it comes to wait; then the others end, and who shares its group gets data.
+        Say how it comes to wait; then the others end, and all that share its group get data.
 
-        :param by_request: who gets data only where it is asked.
+        :param by_request: those that get data only if they are asked.
         """
         spec = self.part.spec
         places = {callback.name: place for place, callback in enumerate(spec.callbacks)}
@@ -99,7 +99,7 @@ def _asked(hunt: _Hunt, left: Iterable[Key]) -> list[Key]:
     """
     What is open of the callbacks of the part; the unit's deadlock follows from its own.
 
-    Whoever stays does not end; who starves does not run.
+    A callback that stays does not end; one that starves does not run.
     """
     members = {callback.name for callback in hunt.part.spec.callbacks}
     return [

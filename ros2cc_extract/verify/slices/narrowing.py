@@ -120,7 +120,7 @@ class _Ways:
     def in_order(self) -> Iterator[_Way]:
         """Give them, those first that take least."""
         yield partial(self._by_slices, last=False)
-        # Who starves follows from who comes to no end, as a rule.
+        # What starves follows from what comes to no end, as a rule.
         yield partial(self._by_slices, last=True)
         if not self.slicer.spins:
             for loose in loosened(self.slicer.closed):
@@ -219,7 +219,7 @@ def _all_end(found: Found, names: Names) -> QueryResult | None:
 
 
 def _satisfied(found: Found) -> QueryResult | None:
-    """Give what follows from verdicts, with the words of any; ``None`` where there is none yet."""
+    """Give what follows from verdicts, with the words of any; ``None`` if there is none yet."""
     some = next(iter(found.results.values()), None)
     if some is None:
         return None

@@ -37,7 +37,7 @@ class Crowd:
     Callbacks that may take all threads while they wait.
 
     :param names: theirs, in the order in which they begin.
-    :param part: they, and whoever may end their waits, as a unit.
+    :param part: they, and the callbacks that may end their waits, as a unit.
     """
 
     names: tuple[str, ...]
@@ -52,7 +52,7 @@ class Crowd:
         """
         Say how they take the threads; then data arrives for the others.
 
-        :param more: of whom data has to arrive as well.
+        :param more: those for which data has to arrive as well.
         """
         spec = self.part.spec
         places = {callback.name: place for place, callback in enumerate(spec.callbacks)}
@@ -71,7 +71,7 @@ class Crowd:
 def refute_by_crowds(
     slicer: Slicer, queries: Sequence[Query], refute: Refute, limits: Limits
 ) -> Found | None:
-    """Refute what crowds refute of ``queries``; ``None`` where there are none, or none does."""
+    """Refute what crowds refute of ``queries``; ``None`` if there are no crowds, or none does."""
     left = {key_of(query): query for query in queries if query.family in _ABOUT}
     found: Found | None = None
     limits = replace(limits, states=SLICE_STATES)
@@ -101,7 +101,7 @@ def added(found: Found, part: Found) -> Found:
 
 
 def _crowds(slicer: Slicer, left: Iterable[Query]) -> Iterator[Crowd]:
-    """Crowds that may refute what is left: with whoever should end, without whoever starves."""
+    """Crowds that may refute what is left: they hold what should end, and not what starves."""
     queries = list(left)
     starving = _about(Family.STARVATION, queries)
     unfinished = _about(Family.PROGRESS, queries)
@@ -145,7 +145,7 @@ def _starving(
     """
     What the run of a crowd means for the unit.
 
-    All threads are taken forever: whatever arrives afterwards for anybody else starves.
+    All threads are taken forever: all that arrives afterwards for others starves.
     """
     taken = next((r for (family, *_), r in part.results.items() if family is _POOL), None)
     if taken is None or taken.verdict is not Verdict.NOT_SATISFIED:

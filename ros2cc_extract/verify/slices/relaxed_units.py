@@ -1,9 +1,9 @@
 """
 Claims about runs, asked of units in which less is waited for.
 
-Whoever waits holds its thread and its group as one does that runs for long, and any run may be
+A callback that waits holds its thread and its group like one that runs long, and any run may be
 long. So a unit without some of the waits, and without locks, does all that the unit itself does
-as far as one can see who runs and which groups are closed: what never happens in it never happens.
+as far as it shows what runs and which groups are closed: what never happens in it never happens.
 What may happen in it says nothing, unless the unit may do without these waits itself.
 """
 
@@ -60,7 +60,7 @@ def loosened(closed: ClosedSpec) -> Iterator[Loosened]:
     """
     Give the unit without waits, then with those alone in which a client of it is asked.
 
-    First somebody outside answers, whenever it may be; then the services of the unit.
+    First a node outside answers, whenever it may be; then the services of the unit.
     """
     if not any(callback.blocking or callback.locks for callback in closed.spec.callbacks):
         return
@@ -72,10 +72,10 @@ def loosened(closed: ClosedSpec) -> Iterator[Loosened]:
 
 def is_loose(query: Query, closed: ClosedSpec, max_cycle: int) -> bool:
     """
-    Tell whether a loosened unit may decide it of ``closed``.
+    Return whether a loosened unit may decide it of ``closed``.
 
-    Whom several ask runs as often and may overlap itself, if its group lets it; unasked that takes
-    two arrivals.
+    If several ask one, it runs as often and may overlap itself, if its group allows it. Unasked
+    that takes two arrivals.
     """
     if query.family is Family.SELF_OVERLAP and max_cycle == 1:
         spec = closed.spec
@@ -87,7 +87,7 @@ def is_loose(query: Query, closed: ClosedSpec, max_cycle: int) -> bool:
 
 
 def _is_asked_again(name: str, closed: ClosedSpec) -> bool:
-    """Whether questions may let it run more often than it does where nobody asks."""
+    """Whether questions may let it run more often than it does if nothing asks."""
     asked, spec = 0, closed.spec
     by_name = {callback.name: callback for callback in spec.callbacks}
     for actor in actors_of(spec):
@@ -121,7 +121,7 @@ def _answered_outside(closed: ClosedSpec) -> ClosedSpec:
 
 
 def _questions(callback: Callback, spec: Spec) -> Iterator[Blocking]:
-    """Give what it asks, in the order of its steps: a client that nobody asks runs unasked."""
+    """Give what it asks, in the order of its steps: a client that nothing asks runs unasked."""
     for step in waits_of(callback, spec):
         if _asks(step, spec):
             block = step.block or Blocking(call='')

@@ -1,9 +1,9 @@
 """
 Proves that a callback ends by its waits, one at a time.
 
-Each wait needs others, and with all of them at once a slice may have too many states. Where nobody
-but the callback itself waits, and it runs once, whoever runs besides ends, and holds nothing for
-ever. So a run in which it stays in one of its waits is, without the others, a run of the callback
+Each wait needs others, and with all of them at once a slice may have too many states. Where only
+the callback itself waits, and it runs once, all others end, and hold nothing
+forever. So a run in which it stays in one of its waits is, without the others, one of the callback
 that has that wait alone: it may take as long before it as the others took. If it ends with each of
 its waits alone, it ends. Not where two waits share what ends one of them only. Its own thread and
 one that is free are enough: the others may run one after the other.
@@ -79,7 +79,7 @@ def _with_one(slicer: Slicer, name: str, steps: tuple[NamedWait, ...]) -> Closed
     one = Slicer(unit, slicer.max_cycle)
     part = one.part_of_end(name)
     if part is None or one.by_request != slicer.by_request & _members(part):
-        return None  # whom no other wait asks would run unasked
+        return None  # one that no other wait asks would run unasked
     own = next(c for c in part.spec.callbacks if c.name == name)
     if tuple(waits_of(own, part.spec)) != steps:
         return None

@@ -1,5 +1,5 @@
 """
-Asks slices: each shape of slice once, whatever its names.
+Ask slices: each shape of slice once, under any names.
 
 A small slice is asked all that can be asked of it, so that one reading of its model answers for
 every unit that has a slice of its shape.
@@ -65,7 +65,7 @@ def _role(key: Key, outline: Outline) -> Role:
 @dataclass(frozen=True)
 class Slicing:
     """
-    Slices of one unit, and who asks them.
+    Slices of one unit, and what asks them.
 
     :param shelf: answers for shapes, of this unit and of others.
     """
@@ -164,7 +164,7 @@ class Slicing:
         )
 
     def _evidence(self, question: _Question) -> Evidence:
-        """Find the run of a slice of which another one of its shape was asked."""
+        """Find the run of a slice if another one of its shape was asked."""
         key = key_of(question.query)
         found = self.search(self._part(question.names), [key], Limits())
         evidence = found.results[key].evidence

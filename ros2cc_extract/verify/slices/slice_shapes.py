@@ -116,7 +116,7 @@ def outline(facts: Iterable[Facts], setting: Setting) -> Outline:
 
     Then of ranks nothing else counts but for tasks, waitables and guard conditions, which the
     executors treat apart. Of clients of one service the first is answered first: with a service,
-    or signals, they are numbered as they were made, and ranks are told.
+    or signals, they are numbered as they were made, and ranks are part of the shape.
     """
     facts = sorted(facts, key=lambda each: each.place)
     waiting = any(each.waits for each in facts)

@@ -87,9 +87,9 @@ class Slicer:
 
     def _with_all_that_wait(self, query: Query) -> Names | None:
         """
-        Add whoever waits: nothing else keeps a thread, a group or the executor forever.
+        Add all that wait: nothing else keeps a thread, a group or the executor forever.
 
-        Not where a callback that waits for nobody may end a wait: any that runs ends a
+        Not where a callback that waits for nothing may end a wait: any that runs ends a
         ``spin_once``, and wakes a coroutine whose future a thread of the user has made done.
         """
         waits = [wait for waits in self._of.waits.values() for wait in waits]
@@ -106,7 +106,7 @@ class Slicer:
 
     def has_waits_of(self, part: Spec) -> bool:
         """
-        Tell whether a part waits for what the unit waits for.
+        Return whether a part waits for what the unit waits for.
 
         What the model of a unit leaves out because of others may be in that of a part without
         them, and then they say different things.
@@ -126,7 +126,7 @@ class Slicer:
 
     def holders_from(self, name: str) -> Names:
         """
-        Name who may hold the group of ``name`` forever before it starts.
+        Name what may hold the group of ``name`` forever before it starts.
 
         A run of its own that waits keeps it from being started again: not where it runs once.
         """
@@ -135,14 +135,14 @@ class Slicer:
         return holders | {name} if is_kept else holders
 
     def _runs_once(self, name: str) -> bool:
-        """Tell whether data arrives for it once; for who gives signals it may arrive again."""
+        """Return whether data arrives for it once; for a giver of signals it may arrive again."""
         if self._of.callers[name] or any(step.is_signal for step in self._of.steps[name]):
             return False
         return self._runs_by_arrivals(self._of.by_name[name]) == 1
 
     def only_asks(self, names: Names) -> bool:
         """
-        Tell whether all that ``names`` wait for arrives because it was asked for.
+        Return whether all that ``names`` wait for arrives because it was asked for.
 
         A message or a timer that would set an event may also never come.
         """
@@ -155,19 +155,19 @@ class Slicer:
 
     @cached_property
     def waiting(self) -> Names:
-        """Whoever waits for another callback of the unit."""
+        """The callbacks that wait for another callback of the unit."""
         return frozenset(name for name, waits in self._of.waits.items() if waits)
 
     @cached_property
     def asked(self) -> Names:
-        """Whoever is asked whether it ends: of activities those of which all waits are known."""
+        """The names asked whether they end; an activity only if all its waits are known."""
         open_ones = {name for name, own in self._of.steps.items() if any(w.is_open for w in own)}
         beside = self._of.steps.keys() - self._of.by_name.keys() - open_ones
         return self.waiting | {name for name in beside if without_signals(self._of.steps[name])}
 
     @cached_property
     def _spinning(self) -> Names:
-        """Whoever spins an executor: others run inside, and inside these yet others."""
+        """The callbacks that spin an executor: others run inside, and inside these yet others."""
         return frozenset(n for n, waits in self._of.waits.items() if any(w.spin for w in waits))
 
     @cached_property
@@ -213,10 +213,10 @@ class Slicer:
         """
         Name callbacks that may hold all threads while they wait, one of each exclusive group.
 
-        Whoever may overlap itself is named as often as data arrives for it.
+        A callback that may overlap itself is named as often as data arrives for it.
 
-        :param first: who has to be among them.
-        :param rather: who is taken before others; ``without`` are those that are not taken.
+        :param first: what has to be among them.
+        :param rather: what is taken before others; ``without`` are those that are not taken.
         """
         if not self._may_be_crowded:
             return None
@@ -246,7 +246,7 @@ class Slicer:
         return has_pool and not self._spinning and not has_activities
 
     def part_of_crowd(self, names: Iterable[str]) -> ClosedSpec | None:
-        """Cut them out with whoever may end their waits; ``None`` where that is no part."""
+        """Cut them out with all that may end their waits; ``None`` if that is no part."""
         cone = self._cone(names, Rests.ON_RUNS)
         if not cone <= self._of.by_name.keys():
             return None
@@ -256,7 +256,7 @@ class Slicer:
 
     def part_of_end(self, name: str) -> ClosedSpec | None:
         """
-        Give the slice that is asked whether ``name`` ends, or the whole where there is none.
+        Give the slice that is asked whether ``name`` ends, or the whole if there is no slice.
 
         ``None`` where others run while one waits on the only thread, or beside the executor.
         """
@@ -273,13 +273,13 @@ class Slicer:
         return self._of.by_name[name]
 
     def waits_alone(self, name: str) -> bool:
-        """Tell whether of all that its end depends on nobody else waits, and it runs once."""
+        """Return whether nothing else that its end depends on waits, and it runs once."""
         if not self.has_threads_to_spare or not self._runs_once(name):
             return False
         return self._cone((name,), Rests.ON_END) & self.waiting <= {name}
 
     def held_steps(self, name: str) -> Iterator[int]:
-        """Number the steps in which it holds a thread until somebody else has run."""
+        """Number the steps in which it holds a thread until another callback has run."""
         for number, step in enumerate(self._of.steps[name]):
             if step.kind is WaitKind.HELD:
                 yield number
@@ -297,7 +297,7 @@ class Slicer:
         )
 
     def gets_data(self, name: str) -> bool:
-        """Whether something may arrive for it that nobody of the unit has asked for."""
+        """Whether something may arrive for it that nothing in the unit has asked for."""
         return not self._of.callers[name]
 
     def cut(self, names: Names) -> ClosedSpec:
@@ -341,7 +341,7 @@ class Slicer:
         """
         Of callbacks that neither wait nor take locks, in any part of such callbacks.
 
-        They signal nobody there.
+        They signal nothing there.
         """
         spec = self._spec
         return {
@@ -361,7 +361,7 @@ class Slicer:
 
     def _unpaired(self, callback: Callback) -> Callback:
         """
-        Who has no partner in the unit, since several bear its name, gets none in a slice.
+        One without a partner in the unit, since several have its name, gets none in a slice.
 
         And a service is not absent in a slice that is there in the unit.
         """
@@ -402,7 +402,7 @@ class Slicer:
         return self.closed.spec
 
     def _closers(self, query: Query) -> Iterator[str]:
-        """Who may close the groups a query is about; a reentrant one never closes."""
+        """What may close the groups a query is about; a reentrant one never closes."""
         if query.family is Family.GROUP_CLOSED:
             return
         for group in query.groups:
@@ -419,7 +419,7 @@ class Slicer:
         return {}
 
     def _cone(self, names: Iterable[str], rests: Rests) -> Names:
-        """Follow partners; of those that have to run, also who may keep their group closed."""
+        """Follow partners; of those that have to run, also what may keep their group closed."""
         cone: dict[str, bool] = {}
         waiting = [(name, rests is Rests.ON_START) for name in names]
         while waiting:

@@ -1,5 +1,5 @@
 """
-Who waits for whom in a unit: what slices of it follow.
+Which waits for which in a unit: what slices of it follow.
 
 Found once for each unit, and read by the names of callbacks.
 """
@@ -54,13 +54,13 @@ class WaitRelations:
         return {actor.name: tuple(waits_of(actor, self.spec)) for actor in actors_of(self.spec)}
 
     def is_client(self, name: str) -> bool:
-        """Tell whether it is a client of the unit."""
+        """Return whether it is a client of the unit."""
         callback = self.by_name.get(name)
         return callback is not None and callback.type is CallbackType.CLT
 
     @cached_property
     def sharers(self) -> dict[Resource | None, Names]:
-        """Who gives signals to a resource; and who takes them away from others that wait."""
+        """What gives signals to a resource; and what takes them away from others that wait."""
         found: dict[Resource | None, set[str]] = {}
         for name, steps in self.steps.items():
             for step in steps:
@@ -84,7 +84,7 @@ class WaitRelations:
 
     @cached_property
     def lock_holders(self) -> dict[Lock | None, Names]:
-        """Who keeps a lock over a wait."""
+        """What keeps a lock over a wait."""
         found: dict[Lock | None, set[str]] = {}
         for name, waits in self.steps.items():
             for wait in waits:
@@ -93,7 +93,7 @@ class WaitRelations:
         return {lock: frozenset(names) for lock, names in found.items()}
 
     def needed(self, callback: Callback) -> Iterator[str]:
-        """Whom it waits for, be it for a lock, and who answers it."""
+        """What it waits for, also for a lock, and what answers it."""
         for wait in self.waits[callback.name]:
             yield wait.needed
             yield from self.lock_holders.get(wait.lock, ())
@@ -121,6 +121,6 @@ def without_signals(steps: Iterable[NamedWait]) -> tuple[NamedWait, ...]:
     """
     Leave out signals.
 
-    A slice without whoever waits for a signal does not have it.
+    A slice without the callbacks that wait for a signal does not have it.
     """
     return tuple(step for step in steps if not step.is_signal)

@@ -49,7 +49,7 @@ class UppaalRun:
         """
         Position of an edge among those of its template.
 
-        :raises InputError: when two edges cannot be told apart.
+        :raises InputError: when two edges cannot be distinguished.
         """
         template = self.templates[edge.process]
         names = location_names(template)

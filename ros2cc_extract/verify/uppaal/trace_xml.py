@@ -25,7 +25,7 @@ def to_xml(run: UppaalRun) -> str:
     """
     Write the layout of ``verifyta -X``, with the locations and edges that occur.
 
-    :raises InputError: when two edges cannot be told apart.
+    :raises InputError: when two edges cannot be distinguished.
     """
     ids = _Ids(run)
     lines = [

@@ -22,7 +22,7 @@ def to_xtr(run: UppaalRun) -> str:
     """
     Write what UPPAAL's simulator opens next to the very same model.
 
-    :raises InputError: when two edges cannot be told apart.
+    :raises InputError: when two edges cannot be distinguished.
     """
     pieces = [_xtr_state(run, 0)]
     for index, step in enumerate(run.run.steps, start=1):

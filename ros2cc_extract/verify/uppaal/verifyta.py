@@ -186,7 +186,7 @@ def read_answers(
     Read the verdicts of one call, in the order of its queries, from what it printed.
 
     :param runs: those it printed, in order; the verdicts say which of them have one. When it
-        announced more or fewer, nobody can say whose they are and none is kept.
+        announced more or fewer, they cannot be assigned and none is kept.
     """
     blocks = re.split(r'Verifying (?:formula|property) \d+', _TERMINAL_CODE.sub('', text))[1:]
     shows = [_SHOWS_RUN.search(block) is not None for block in blocks]

@@ -1,4 +1,4 @@
-"""Two callbacks change a balance, each by what it has read before it tells of it."""
+"""Two callbacks change a balance, each by what it has read before it reports that."""
 
 import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup

@@ -21,7 +21,7 @@ def tick() -> None:
 
 
 def spin() -> None:
-    # How rclpy tells it depends on where the executor is when its context goes away.
+    # How rclpy reports it depends on where the executor is when its context goes away.
     with contextlib.suppress(ExternalShutdownException, RCLError):
         executor.spin()
 

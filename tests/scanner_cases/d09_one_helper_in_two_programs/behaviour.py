@@ -1,4 +1,4 @@
-"""A helper that is given its node later, by somebody who is not in sight."""
+"""A helper that is given its node later, by unknown code."""
 
 
 class Behaviour:

@@ -1,4 +1,4 @@
-"""What a unit of hundreds of callbacks asks ten thousand times: told as if each stood alone."""
+"""What a unit of hundreds of callbacks asks ten thousand times: reported as if each were alone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Python 3.10 without tomli, as ROS Humble has it: what needs no TOML works, the rest is told."""
+"""Python 3.10 without tomli, as on ROS Humble: what needs no TOML works, the rest is reported."""
 
 from __future__ import annotations
 

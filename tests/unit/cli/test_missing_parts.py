@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from ros2cc_extract.cli.main import main
-from ros2cc_extract.cli.shared.native_parts import CORE, JOURNAL, MEND, tell_what_is_missing
+from ros2cc_extract.cli.shared.native_parts import CORE, JOURNAL, MEND, report_missing_parts
 from ros2cc_extract.extract.live.recorder import journal
 
 NODE = Path(__file__).parents[3] / 'launch_free_examples/two_groups/node.py'
@@ -18,7 +18,7 @@ NODE = Path(__file__).parents[3] / 'launch_free_examples/two_groups/node.py'
 
 def told(name: str, **given: object) -> str:
     stderr = io.StringIO()
-    tell_what_is_missing(name, Namespace(**given), stderr)
+    report_missing_parts(name, Namespace(**given), stderr)
     return stderr.getvalue()
 
 

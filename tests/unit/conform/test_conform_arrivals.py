@@ -1,4 +1,4 @@
-"""An events executor serves what arrives in its order; a trace does not tell it, feeders do."""
+"""An events executor serves what arrives in its order; a trace does not show it, feeders do."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def test_what_never_arrived_is_not_served() -> None:
 
 
 def test_a_timer_is_due_whenever_that_fits() -> None:
-    """Nobody tells of it: here before the message that is served after it."""
+    """Nothing reports it: here before the message that is served after it."""
     runs = [('plan', 10, 50), ('tick', 60, 70), ('on_joint', 80, 90)]
     told: list[Told] = [('plan', 5, 6), ('on_joint', 30, 31)]
     found = compared(runs, told)
@@ -127,7 +127,7 @@ def test_a_timer_is_not_due_twice_before_it_is_served() -> None:
 
 
 def test_a_message_on_its_way_arrives_later() -> None:
-    """The same, if only its being served tells that it had arrived."""
+    """The same, if only its being served shows that it had arrived."""
     runs = [('plan', 10, 50), ('tick', 60, 70), ('tick', 71, 75), ('on_joint', 80, 90)]
     told: list[Told] = [('plan', 5, 6), ('on_joint', 30, None)]
     assert compared(runs, told).answer.outcome is Outcome.CONFORMS

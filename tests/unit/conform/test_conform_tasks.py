@@ -106,7 +106,7 @@ def test_a_backlog_of_tasks_needs_few_states() -> None:
 
 @pytest.mark.parametrize('told', [0, 1])
 def test_a_trace_may_end_before_a_task_is_told_of(told: int) -> None:
-    """Its maker tells of it afterwards; by then it may have run, and the process be gone."""
+    """Its maker reports it afterwards; by then it may have run, and the process be gone."""
     steps = [(SPINNING, 'task', FIRST)] * told
     steps += [(SPINNING, name, FIRST) for name in ('run', 'pause')]
     compared = compare(recorded('9.1.2', steps), EXECUTOR, unit())

@@ -20,7 +20,7 @@ Program = Mapping[str, Sequence[str]]
 
 
 class Simulated:
-    """Activities with their steps; whoever was chosen goes on as long as it can."""
+    """Activities with their steps; the chosen one goes on as long as it can."""
 
     def __init__(self, program: Program, strays_in: int = 0) -> None:
         self.program = program

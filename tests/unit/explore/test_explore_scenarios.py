@@ -1,4 +1,4 @@
-"""What is written of a failure, read again; and what is told of it."""
+"""What is written of a failure, read again; and what is reported of it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from ros2cc_extract.explore.failures import Failure, Kind, exception, lost_updat
 from ros2cc_extract.explore.points import Point
 from ros2cc_extract.explore.replaying import TAILS, Replay, replay, schedules_of
 from ros2cc_extract.explore.scenario import Found, Scenario, read_found, write_found
-from ros2cc_extract.explore.telling import (
+from ros2cc_extract.explore.watching import Process, Seen
+from ros2cc_extract.explore.wording import (
     as_json,
     file_name,
     found_as_text,
@@ -24,7 +25,6 @@ from ros2cc_extract.explore.telling import (
     replay_as_text,
     summary,
 )
-from ros2cc_extract.explore.watching import Process, Seen
 
 FAILURE = Failure(kind=Kind.LOST_UPDATE, file='/nowhere/arm.py', line=9, words='n was 1')
 CHOICES = (('a#1', 'begin'), ('b#1', 'begin'), ('b#1', 'arm.py:9 write n'))

@@ -1,4 +1,4 @@
-"""Services that hold all threads with the requests of clients in sight, on whatever executor."""
+"""Services that hold all threads with the requests of known clients, on whatever executor."""
 
 from __future__ import annotations
 

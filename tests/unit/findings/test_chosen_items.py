@@ -84,7 +84,7 @@ COUNT = (
         (LOCKED_TWICE, 'pass', ['CC304 warning']),
         (LOCKED_TWICE, LOCKED_TWICE, ['CC301 warning']),
         (ANSWER, ANSWER, ['CC301 warning']),
-        # At once it is as little told as other changes in place.
+        # At once it is not reported, like other changes in place.
         (AT_ONCE, 'pass', []),
         (AT_ONCE, AT_ONCE, ['CC301 note']),
         # Somebody else's items are others.

@@ -54,7 +54,7 @@ OWN = 'MutuallyExclusiveCallbackGroup'
         ('self.over.wait()', 'ReentrantCallbackGroup', []),
         ('self.over.wait(0.1)', OWN, []),
         ('pass', OWN, []),
-        # Who tells the goal to stop waits only until that has noticed.
+        # Code that stops the goal waits only until that has noticed.
         ('self.halt.set(); self.over.wait()', OWN, []),
         ('self.stopped = True; self.over.wait()', OWN, []),
         ('self.goal.abort(); self.over.wait()', OWN, []),

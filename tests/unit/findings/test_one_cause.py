@@ -12,7 +12,7 @@ from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import EntityKind, Spec, Unresolved
 
 TOO_LONG = 'too long to be followed to its end'
-NO_CALLER = "parameter 'node' of Arm.__init__; no caller is in sight"
+NO_CALLER = "parameter 'node' of Arm.__init__; no caller is known"
 
 
 def lacking(name: str, *facts: Unresolved) -> Spec:

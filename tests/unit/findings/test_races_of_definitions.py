@@ -1,4 +1,4 @@
-"""What is imported, and who sets to None: what a race is not told of, or not by whom."""
+"""What is imported, and what sets to None: accesses that no race names."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ from ros2cc_extract.spec.model import (
     When,
 )
 
-LOST = Unresolved(subject='executor', fact='executor', reason='no executor in sight', source=at(9))
+LOST = Unresolved(subject='executor', fact='executor', reason='no known executor', source=at(9))
 HOLE = Unresolved(subject='tick', fact='topic', reason='a parameter', source=at(3))
 
 
@@ -175,7 +175,7 @@ def test_a_node_that_somebody_else_may_serve_is_no_finding(facts: dict[str, obje
 
 def test_an_executor_that_was_not_found_is_told_by_the_name_of_the_node() -> None:
     spec = replace(unit(NOT_FOUND, timer('a')), unresolved=(LOST,))
-    assert only(spec, 'CC501').message == 'executor of arm not resolved: no executor in sight'
+    assert only(spec, 'CC501').message == 'executor of arm not resolved: no known executor'
 
 
 def test_two_callers_of_one_sleep_are_two_findings() -> None:

@@ -1,4 +1,4 @@
-"""States that stand for flags: whoever finds one, and stores another, keeps others out."""
+"""States that stand for flags: code that finds one, and stores another, keeps others out."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def test_a_state_keeps_others_out(test: str, up: str, down: str) -> None:
         ('self.state is State.BUSY', 'msg.data', IDLE, 'pass'),
         # Somebody else puts it down.
         ('self.state is State.BUSY', BUSY, IDLE, 'self.state = State.IDLE'),
-        # It tells nothing alone.
+        # It shows nothing alone.
         ("self.state is State.BUSY and msg.data == ''", BUSY, IDLE, 'pass'),
     ],
 )

@@ -1,4 +1,4 @@
-"""Waits of threads of the program's own, and of main: decided, or told, as those of callbacks."""
+"""Waits of threads of the program's own, and of main: decided or reported, as of callbacks."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def test_a_daemon_that_only_listens_holds_nobody_up(
 
 
 def test_a_callback_that_waits_for_the_lock_of_a_waiting_thread() -> None:
-    """Each waits for the other; told where the callback takes the lock."""
+    """Each waits for the other; reported where the callback takes the lock."""
     work = thread(
         'work',
         event(Waker(by='tick', after=0, held=('lock',)), held=('lock',)),

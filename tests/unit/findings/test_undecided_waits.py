@@ -1,4 +1,4 @@
-"""CC120 and CC121: a wait that no model decides is told, once, and weighs with ``--strict``."""
+"""CC120 and CC121: a wait that no model decides is reported once, and weighs with ``--strict``."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def test_what_another_program_ends_rests_on_that_program() -> None:
 
 def test_an_answer_that_somebody_else_may_give_too_is_told_once() -> None:
     (wait,) = calls(None, call='polling loop')
-    wait = replace(wait, answer_to='plan', escapes=Unknown('nothing in sight calls on_plan'))
+    wait = replace(wait, answer_to='plan', escapes=Unknown('no known code calls on_plan'))
     spec = unit(threads(2), timer('feed', blocking=(wait,)))
     assert found(spec) == ['CC120:40 note']
 

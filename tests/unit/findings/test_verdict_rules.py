@@ -102,7 +102,7 @@ def test_a_nested_spin_is_in_the_model_too() -> None:
 
 
 def test_a_hang_that_rests_on_an_absent_service_is_no_finding_of_the_model() -> None:
-    """Another program may offer it; whoever waits is told so by the verdict."""
+    """Another program may offer it; the verdict says so."""
     waits = Event(kind='wait', form='service', who='on_left', thread='thread_0', needed='a')
     told = (Sentence.of('thread_0', waits),)
     moment = Moment(number=1, sentences=told, places=(), changes={})

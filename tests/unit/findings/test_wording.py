@@ -1,4 +1,4 @@
-"""How places of creation are told."""
+"""How places of creation are worded."""
 
 from __future__ import annotations
 

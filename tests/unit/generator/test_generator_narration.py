@@ -88,7 +88,7 @@ def test_every_event_can_be_told(text: str):
 
 
 def test_the_templates_and_the_words_know_the_same_events():
-    """Whoever adds an event to a template has to say what it is called."""
+    """Every event in a template has a known name."""
     comment = re.compile(r'kind="comments"[^>]*>(.*?)</label>')
     known = {
         annotation.key

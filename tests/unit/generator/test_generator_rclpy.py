@@ -164,7 +164,7 @@ def test_members_of_a_closed_group_are_not_waited_for():
 
 @pytest.mark.parametrize('executor', [SINGLE, MULTI, EVENTS])
 def test_data_is_taken_by_whoever_begins_and_else_stays(executor: str):
-    """A refused start takes nothing; whoever is stuck with data left would be a deadlock."""
+    """A refused start takes nothing; being stuck with data left would be a deadlock."""
     model = model_of(closed_unit('a:SUB:g b:SUB:g', 'g:EXCLUSIVE', 2, executor))
     assert holds(model, 'E<> (cb_running(0) and cb_waiting[0] == 0)')
     for name in (0, 1):

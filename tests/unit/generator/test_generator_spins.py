@@ -122,7 +122,7 @@ def test_the_global_executor_serves_the_node_meanwhile_and_nobody_does_afterward
 
 
 def test_who_spins_on_one_of_several_threads_runs_once():
-    """However many threads there are, and whoever runs inside."""
+    """For any number of threads, and any callbacks inside."""
     unit = spinning(*until('rclpy', 'arm'), executor=MULTI, threads=3)
     assert can_be(unit, f'cb_running({ASK}) and cb_running({TICK})')
     assert decided(unit, f'A[] cb_runs({ASK}) <= 1') is Verdict.SATISFIED

@@ -399,7 +399,7 @@ def test_of_a_thread_of_which_nothing_is_known_only_what_needs_it_is_open():
 
 
 def test_activities_are_no_workers():
-    """Two threads beside a pool of one: whoever waits there holds up nobody."""
+    """Two threads beside a pool of one: a wait there holds up nothing."""
     waiting = [f'name: w{n}, kind: thread, {blocking(wait("done", "by: tick"))}' for n in range(2)]
     assert said(unit('tick a\nscan b', threads=1, activities=beside(*waiting))) == []
 

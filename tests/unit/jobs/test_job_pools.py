@@ -1,4 +1,4 @@
-"""A list of jobs is done by whoever is there, with the same answers."""
+"""A list of jobs is done by any pool, with the same answers."""
 
 from __future__ import annotations
 

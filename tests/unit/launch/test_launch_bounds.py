@@ -1,5 +1,5 @@
 """
-Launch files that are small and stand for more than anybody takes: told, at little cost.
+Launch files that are small and stand for more than the limits allow: reported, at little cost.
 
 Without their bounds none of them comes to an end before the time limit of a test.
 """

@@ -19,7 +19,7 @@ SCRIPT = Path('record.py')
 
 
 class Door:
-    """A way in, which refuses if it is told why; keeps who came."""
+    """A way in, which refuses if it is given a reason; keeps all callers."""
 
     def __init__(self, name: str, refusal: str | None = None) -> None:
         self.entered: list[tuple[int, Path]] = []

@@ -105,7 +105,7 @@ def test_a_seed_gives_the_same_order_again_and_seeds_differ(policy: str) -> None
 
 
 def test_priorities_of_depth_d_fall_at_most_d_minus_1_times() -> None:
-    """Without a fall whoever has the highest priority comes first, up to its end."""
+    """Without a fall the highest priority comes first, up to its end."""
     waiting = {'a#1': 5, 'b#1': 5, 'c#1': 5}
     assert {switches(order(of('pct', seed, depth=1), waiting)) for seed in range(30)} == {2}
     depths = [switches(order(of('pct', seed, depth=3, steps=15), waiting)) for seed in range(60)]

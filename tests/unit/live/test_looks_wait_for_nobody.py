@@ -1,4 +1,4 @@
-"""A look at a process takes no lock of it: whoever hangs may hold that."""
+"""A look at a process takes no lock of it: a thread that hangs may hold it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Handle:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Whoever destroys it may go on."""
+        """The code that destroys it may go on."""
 
     def get_domain_id(self) -> int:
         return 7

@@ -195,7 +195,7 @@ def test_wrapper_can_be_called_while_it_is_taken_apart() -> None:
     # What is made first is taken apart first; functions of Python 3.10 cannot be called then.
     method = native.submit_function(max, 0, native.Journal(1), str, len)
     known = id(method)
-    # Code is no concern of the garbage collector, so what waits for its end is told in between.
+    # Code is no concern of the garbage collector, so what waits for its end is reported before.
     code = compile('None', '', 'eval')
     ended = weakref.ref(code, call)
     cycle = [method, code]

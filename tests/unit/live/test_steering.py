@@ -1,4 +1,4 @@
-"""Who is held, and who may go on; which lines are told."""
+"""What is held, and what may go on; which lines are reported."""
 
 from __future__ import annotations
 

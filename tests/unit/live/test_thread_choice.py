@@ -1,4 +1,4 @@
-"""Only a thread that sleeps in a system call of its own is stopped; a stopped process is told."""
+"""Only a thread that sleeps in its own system call is stopped; a stopped process is reported."""
 
 from __future__ import annotations
 

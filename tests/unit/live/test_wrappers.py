@@ -1,5 +1,5 @@
 """
-What stands in the place of rclpy's methods: unseen by whoever calls it, in Python and in C.
+What stands in the place of rclpy's methods: unseen by callers, in Python and in C.
 
 The stand-ins have the shapes of rclpy's classes; the tests of ``tests/live`` wrap the real ones.
 """
@@ -77,7 +77,7 @@ class ExternalShutdownException(Exception):  # noqa: N818
 
 
 def run_in(group: Any, entity: Any, error: type[BaseException] | None) -> None:
-    """As the handler of an executor: the group is told of the end, however it ends."""
+    """As the handler of an executor: the group learns of the end, however it ends."""
     group.beginning_execution(entity)
     try:
         if error is not None:
@@ -462,7 +462,7 @@ def test_end_of_a_group_is_one_whatever_it_gives(recorder: Recorder, told: Told)
 def test_a_group_is_entered_before_a_begin_is_told_and_left_after_an_end(
     recorder: Recorder,
 ) -> None:
-    """Whoever gets the group begins later by the clock, however late the end is written down."""
+    """What gets the group begins later by the clock, however late the end is written down."""
 
     class Group:
         def beginning_execution(self, entity: Any) -> bool:

@@ -47,7 +47,7 @@ class Failing:
 
 
 ANSWERS = st.one_of(st.sampled_from([True, False, None, 0, 'yes', (1,)]), RAISES, RAISES.map(Bool))
-# With numbers as there are; of others it is told sooner in C.
+# With numbers that exist; C reports others sooner.
 RECORDS = st.one_of(
     st.sampled_from([None, 'unknown', 'raising find']),
     st.sampled_from([0, 2**32 - 1, True]).map(lambda n: SimpleNamespace(number=n)),

@@ -14,7 +14,7 @@ from ros2cc_extract.extract.static.api import scan
 from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.findings.promises import Judgement, Mark, Promise
 from ros2cc_extract.report.shared.checked import Checked
-from ros2cc_extract.report.text.check import Telling, print_check
+from ros2cc_extract.report.text.check import Presentation, print_check
 from ros2cc_extract.report.text.findings import Detail
 from ros2cc_extract.report.text.style import console_for
 from ros2cc_extract.source_locations import Place
@@ -59,7 +59,7 @@ def told(
     promises: tuple[Judgement, ...] = KEPT,
     encoding: str = 'utf-8',
     root: str = '',
-    how: Telling | None = None,
+    how: Presentation | None = None,
     with_verdicts: bool = False,
     **counts: int,
 ) -> str:
@@ -77,7 +77,7 @@ def told(
     )
     raw = io.BytesIO()
     stream = io.TextIOWrapper(raw, encoding, 'backslashreplace')
-    print_check(checked, console_for(stream), how or Telling())
+    print_check(checked, console_for(stream), how or Presentation())
     stream.flush()
     return raw.getvalue().decode(encoding)
 
@@ -158,7 +158,7 @@ def test_the_last_line_says_what_was_found(counts: dict[str, int], line: str) ->
 
 
 def test_a_log_is_told_no_time() -> None:
-    assert told([], how=Telling(seconds=1.0)) == told([], how=Telling(seconds=2.0))
+    assert told([], how=Presentation(seconds=1.0)) == told([], how=Presentation(seconds=2.0))
 
 
 def test_findings_come_first_and_notes_are_a_line_each() -> None:
@@ -182,7 +182,7 @@ def test_no_path_is_absolute_below_the_folder_of_the_reader_or_the_repository() 
 
 
 def test_quiet_tells_each_finding_in_a_line() -> None:
-    lines = told([CALL, RACE, NOTE], how=Telling(detail=Detail.QUIET)).splitlines()
+    lines = told([CALL, RACE, NOTE], how=Presentation(detail=Detail.QUIET)).splitlines()
     assert [line.partition(': ')[2].partition(':')[0] for line in lines[:3]] == [
         'error CC101',
         'warning CC301',
@@ -194,7 +194,7 @@ def test_quiet_tells_each_finding_in_a_line() -> None:
 def test_a_run_has_eight_steps_and_verbose_tells_all() -> None:
     moments = tuple(replace(RUN.moments[0], number=n) for n in range(1, 21))
     long = replace(RACE, run=replace(RUN, moments=moments, cycle_from=None))
-    usual, verbose = told([long]), told([long], how=Telling(detail=Detail.VERBOSE))
+    usual, verbose = told([long]), told([long], how=Presentation(detail=Detail.VERBOSE))
     assert usual.count('executor assigns tick') == 8
     assert '(12 steps left out)' in usual
     assert verbose.count('executor assigns tick') == 20
@@ -225,7 +225,7 @@ def test_many_related_places_are_cut() -> None:
     ('notes', 'detail'), [(10, Detail.USUAL), (11, Detail.QUIET), (11, Detail.VERBOSE)]
 )
 def test_a_few_notes_are_told_and_all_where_somebody_asks(notes: int, detail: Detail) -> None:
-    text = told([NOTE] * notes, how=Telling(detail=detail))
+    text = told([NOTE] * notes, how=Presentation(detail=detail))
     assert text.count('CC501: topic of tick') == notes
 
 

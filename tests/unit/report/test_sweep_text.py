@@ -27,7 +27,7 @@ Cycles = tuple[int | None, ...]
 
 @pytest.fixture(autouse=True)
 def width_of_a_log(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whoever runs the tests may have a narrow window."""
+    """The tests may run in a narrow window."""
     monkeypatch.delenv('COLUMNS', raising=False)
 
 

@@ -1,4 +1,4 @@
-"""Closing a unit: every decision is told."""
+"""Closing a unit: every decision is reported."""
 
 from __future__ import annotations
 

@@ -102,9 +102,9 @@ def test_what_differs_between_two_releases() -> None:
 
 
 def test_what_is_told_of_a_release() -> None:
-    assert TASKS_OLDEST_FIRST.told('7.1.6') == TASKS_OLDEST_FIRST.without
-    assert TASKS_OLDEST_FIRST.told('7.1.9') == TASKS_OLDEST_FIRST.having
-    assert TASKS_OLDEST_FIRST.told('jazzy') == (
+    assert TASKS_OLDEST_FIRST.words_for('7.1.6') == TASKS_OLDEST_FIRST.without
+    assert TASKS_OLDEST_FIRST.words_for('7.1.9') == TASKS_OLDEST_FIRST.having
+    assert TASKS_OLDEST_FIRST.words_for('jazzy') == (
         'the task that was made last is served first, or the task that was made first is '
         'served first'
     )

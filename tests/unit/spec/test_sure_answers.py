@@ -76,7 +76,7 @@ def test_a_circle_stays_and_what_it_does_not_need_goes() -> None:
 
 def test_what_is_not_known_is_not_sure() -> None:
     locked = replace(ON_BACK, locks=(Act(name='lock'),))
-    odd = replace(ON_BACK, unresolved=Unknown('its code is not in sight'))
+    odd = replace(ON_BACK, unresolved=Unknown('its code is not available'))
     skipped = replace(ON_BACK, conditional=True)
     for server in (locked, odd, skipped):
         assert waiting(without_sure_waits(of(TICK, BACK, server))) == {'tick': ['back']}

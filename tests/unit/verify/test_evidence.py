@@ -1,4 +1,4 @@
-"""Runs told in the words of the model's own comments."""
+"""Runs described in the words of the model's own comments."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from ros2cc_extract.report.trace_formats import STEP_US, chrome_trace, mermaid
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.verify.results.events import Event
 from ros2cc_extract.verify.results.evidence import Sentence
-from ros2cc_extract.verify.results.run_evidence import Names, tell
+from ros2cc_extract.verify.results.run_evidence import Names, describe
 
 COMMENTED = """<?xml version="1.0" encoding="utf-8"?>
 <nta><declaration>int[0,2] n; chan go;</declaration>
@@ -42,7 +42,7 @@ def run_of(formula: str, xml: str = COMMENTED) -> Run:
 
 
 def test_expressions_are_evaluated_after_the_step() -> None:
-    evidence = tell(run_of('E<> t0.busy'), NAMES)
+    evidence = describe(run_of('E<> t0.busy'), NAMES)
     (moment,) = evidence.moments
     assert moment.sentences == (
         Sentence('t0', 'b starts on worker', Event(kind='start', who='b', thread='worker')),
@@ -53,7 +53,7 @@ def test_expressions_are_evaluated_after_the_step() -> None:
 
 
 def test_steps_without_words_are_passed_over_and_their_changes_kept() -> None:
-    evidence = tell(run_of('(t0.busy) --> (t0.busy and n == 2)'), NAMES)
+    evidence = describe(run_of('(t0.busy) --> (t0.busy and n == 2)'), NAMES)
     texts = [[sentence.text for sentence in moment.sentences] for moment in evidence.moments]
     assert texts == [['b starts on worker']]
     assert evidence.ends == 'idle'
@@ -72,7 +72,7 @@ def test_a_cycle_starts_at_its_first_told_step() -> None:
             '<location id="id1"><name>busy</name>', '<location id="id1"><name>busy</name><urgent/>'
         ),
     )
-    evidence = tell(run, NAMES)
+    evidence = describe(run, NAMES)
     assert [m.sentences[0].text for m in evidence.moments] == [
         'b starts on worker',
         'group group 7 closes',
@@ -84,7 +84,7 @@ def test_a_model_without_words_is_told_by_its_locations() -> None:
     bare = '\n'.join(line for line in COMMENTED.splitlines() if 'event start' not in line)
     bare = bare.replace('  thread: thread id</label></transition>', '</transition>')
     bare = bare.replace('<label kind="comments">event close; group: group 7</label>', '')
-    evidence = tell(run_of('E<> t0.busy', bare), NAMES)
+    evidence = describe(run_of('E<> t0.busy', bare), NAMES)
     assert [sentence.text for sentence in evidence.moments[0].sentences] == [
         't0: idle -> busy (go)',
         'r: w -> w (go)',
@@ -96,7 +96,7 @@ def test_mermaid_draws_an_arrow_from_sender_to_receiver() -> None:
     bare = bare.replace('event close; group: group 7', '').replace(
         'thread: thread id', 'on worker'
     )
-    chart = mermaid(tell(run_of('E<> t0.busy', bare), NAMES), 'why; "so"')
+    chart = mermaid(describe(run_of('E<> t0.busy', bare), NAMES), 'why; "so"')
     assert chart == (
         '---\ntitle: "why, \'so\'"\n---\nsequenceDiagram\n    participant t0\n    participant r\n'
         "    t0->>r: 1. t0: says, 'hello' no. 1 on worker<br/>r: w -> w (go)\n"
@@ -106,7 +106,7 @@ def test_mermaid_draws_an_arrow_from_sender_to_receiver() -> None:
 def test_mermaid_gets_other_names_for_what_it_would_read_as_signs() -> None:
     indexed = COMMENTED.replace('const int id', 'const int[0,0] id').replace('t0 = T(0); ', '')
     indexed = indexed.replace('system t0, r;', 'system T, r;').replace('event ', 'the event ')
-    chart = mermaid(tell(run_of('E<> T(0).busy', indexed), Names()), 'why')
+    chart = mermaid(describe(run_of('E<> T(0).busy', indexed), Names()), 'why')
     assert chart.splitlines()[4:] == [
         '    participant p0 as T(0)',
         '    participant r',
@@ -116,7 +116,7 @@ def test_mermaid_gets_other_names_for_what_it_would_read_as_signs() -> None:
 
 
 def test_chrome_trace_has_a_track_per_process_and_a_slice_per_stay() -> None:
-    trace = chrome_trace(tell(run_of('E<> t0.busy'), NAMES), 'title')
+    trace = chrome_trace(describe(run_of('E<> t0.busy'), NAMES), 'title')
     slices = [
         (event['tid'], event['name'], event['ts'], event['dur'])
         for event in trace['traceEvents']

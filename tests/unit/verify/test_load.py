@@ -1,4 +1,4 @@
-"""Starvation told by rates, compared with what was counted on rclpy 7.1.6 and 9.1.2."""
+"""Starvation judged by rates, compared with what was counted on rclpy 7.1.6 and 9.1.2."""
 
 from __future__ import annotations
 

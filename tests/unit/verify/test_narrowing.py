@@ -279,7 +279,7 @@ def test_where_all_threads_may_be_held_there_is_no_slice_for_ends() -> None:
 
 
 def test_a_run_of_another_slice_of_its_shape_is_searched_when_it_is_asked_for() -> None:
-    """Who is asked second gets a run of its own slice, told with its own names."""
+    """A callback that is asked second gets a run of its own slice, with its own names."""
 
     def search(closed: ClosedSpec, keys: Sequence[Key], limits: Limits) -> Found:
         found = asked(closed, keys, limits)

@@ -26,7 +26,7 @@ EXAMPLES = Path(__file__).parents[3] / 'launch_free_examples'
         (
             'service_deadlock',
             Profile.RCLPY,
-            'there is no deadlock: whatever arrives can be served',
+            'there is no deadlock: all that arrives can be served',
         ),
         ('two_groups', Profile.PAPER, 'there is no deadlock: some step is always possible'),
     ],

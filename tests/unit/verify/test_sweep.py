@@ -56,7 +56,7 @@ def test_an_executor_without_a_pool_keeps_its_one_thread_and_says_so() -> None:
     assert swept.turns() == ()
     assert len({v.states for v in swept.verifications}) == 1
     note = (
-        'SingleThreadedExecutor runs callbacks on one thread, whatever number is asked; to try a '
+        'SingleThreadedExecutor runs callbacks on one thread, for any number given; to try a '
         'pool, write kind: MultiThreadedExecutor into the specification'
     )
     assert [v.notes for v in swept.verifications] == [(), (note,), (note,)]

@@ -12,7 +12,7 @@ from ros2cc_extract.checker.api import Model, Query, Run, check, read_model
 from ros2cc_extract.checker.runs.printed_runs import NamedState, replay_named
 from ros2cc_extract.errors import InputError
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.verify.results.run_evidence import Names, tell
+from ros2cc_extract.verify.results.run_evidence import Names, describe
 from ros2cc_extract.verify.uppaal.run import UppaalRun
 from ros2cc_extract.verify.uppaal.trace_xml import read_xml, to_xml
 from ros2cc_extract.verify.uppaal.trace_xtr import read_xtr, to_xtr
@@ -172,7 +172,7 @@ def test_a_run_of_another_model_is_refused(named: list[dict[str, str]], complain
 
 def test_a_told_run_travels_without_its_model() -> None:
     run = run_of('E<> seen')
-    told = replace(tell(run.run, Names()), origin=run)
+    told = replace(describe(run.run, Names()), origin=run)
     again = pickle.loads(pickle.dumps(told))
     assert (again, again.origin) == (told, None)
 

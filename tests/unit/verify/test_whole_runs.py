@@ -14,7 +14,7 @@ from ros2cc_extract.spec.model import (
     GroupType,
     Spec,
 )
-from ros2cc_extract.verify.results.run_evidence import Names, tell
+from ros2cc_extract.verify.results.run_evidence import Names, describe
 from tests.support.published import document
 from tests.support.small import automaton
 
@@ -36,7 +36,7 @@ def test_every_step_of_a_run_is_written() -> None:
     query = Query('E<> (cb_running(1) and cb_waiting[0] == 0)', '', None)
     (answer,) = check(model, [query]).answers
     assert answer.path is not None
-    evidence = tell(answer.path, Names.of(UNIT.spec))
+    evidence = describe(answer.path, Names.of(UNIT.spec))
     written = evidence_data(evidence)
     assert [step['step'] for step in written] == list(range(1, len(answer.path.steps) + 1))
     assert [step['edges'] for step in written] == [
@@ -61,4 +61,6 @@ def test_a_run_that_ends_in_a_step_without_words_is_written_to_its_end() -> None
     )
     (answer,) = check(model, [Query('E<> P.c', '', None)]).answers
     assert answer.path is not None
-    assert [step['edges'] for step in evidence_data(tell(answer.path, Names()))] == [['P: a -> c']]
+    assert [step['edges'] for step in evidence_data(describe(answer.path, Names()))] == [
+        ['P: a -> c']
+    ]

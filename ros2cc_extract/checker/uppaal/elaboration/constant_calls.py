@@ -38,7 +38,7 @@ class NoNumberError(Exception):
 
 
 class ConstantCalls:
-    """Counts out calls of functions that were elaborated before, so that their faults are told."""
+    """Evaluates calls of functions that were elaborated before, to report their errors."""
 
     def __init__(self, type_of: TypeOf) -> None:
         self._type_of = type_of

@@ -249,7 +249,7 @@ class _ModelBuilder:
     ) -> Iterator[tuple[tuple[tuple[str, int], ...], Scope]]:
         types = [self._expressions.types.integer(select.type, outer) for select in selects]
         if selects:
-            # Told before the guards of them all were looked at.
+            # Reported before all their guards are evaluated.
             count = math.prod(declared.high - declared.low + 1 for declared in types)
             _refuse_too_many(count, outer.place(selects[0].line))
         for values in itertools.product(*(range(t.low, t.high + 1) for t in types)):

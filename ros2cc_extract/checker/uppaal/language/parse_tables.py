@@ -50,7 +50,7 @@ class Grammar:
             if known is not None:
                 return known
         made = self._made(builder)
-        any(store_content(path, _told(made)) for path in paths)
+        any(store_content(path, _dumped(made)) for path in paths)
         return made
 
     def _made(self, builder: Transformer[Any, Any]) -> Lark:
@@ -78,7 +78,7 @@ def _folders() -> list[Path]:
     return [*([bytecode] if takes_more else []), *([users] if users is not None else [])]
 
 
-def _told(parser: Lark) -> bytes:
+def _dumped(parser: Lark) -> bytes:
     """Tables as lark itself gives them away; a builder stays behind."""
     from lark.grammar import Rule
     from lark.lexer import TerminalDef
@@ -96,7 +96,7 @@ def _loaded(path: Path, builder: Transformer[Any, Any]) -> Lark | None:
         return None
     try:
         data, memo = json.loads(content, object_pairs_hook=_with_numbers)
-        load: Any = Lark._load_from_dict  # of which lark says no types
+        load: Any = Lark._load_from_dict  # lark has no types for it
         parser: Lark = load(data, memo, transformer=builder)
     except (*_UNUSABLE, LarkError):
         return None

@@ -153,7 +153,7 @@ def parse_query(text: str, place: Place) -> syntax.Query:
     try:
         result = _query_maker(shape, place.line)(numbers)
     except ModelFormatError:
-        result = parse(text, Start.QUERY, place)  # which tells of the text as it stands
+        result = parse(text, Start.QUERY, place)  # its error shows the text as it was given
     assert isinstance(result, syntax.Query)
     return result
 

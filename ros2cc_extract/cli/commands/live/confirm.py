@@ -72,7 +72,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.confirm.consent import ask_to_start
     from ros2cc_extract.confirm.outcomes import Outcome
     from ros2cc_extract.confirm.processes import release_of
-    from ros2cc_extract.confirm.telling import as_json, as_text, summary
+    from ros2cc_extract.confirm.wording import as_json, as_text, summary
     from ros2cc_extract.errors import InputError
     from ros2cc_extract.pipeline.system_sources import names_launch_file
     from ros2cc_extract.source_locations import Place

@@ -129,7 +129,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
 
 def _python_of(args: argparse.Namespace, command: Sequence[str]) -> str:
-    """Who runs the stimulus: the interpreter of the command, where it names one."""
+    """Return the interpreter for the stimulus: that of the command, if it names one."""
     from ros2cc_extract.cli.shared.on_node import interpreter_of
 
     named = Path(command[0]).name.startswith('python') and not args.python
@@ -171,7 +171,7 @@ def _explore(
     except KeyboardInterrupt:
         so_far.why_ended = 'interrupted'
     _clear(stderr)
-    _tell(args, so_far, (scenario, len(units), release, begun), stdout, stderr)
+    _report(args, so_far, (scenario, len(units), release, begun), stdout, stderr)
     if so_far.found:
         return EXIT_FINDINGS
     if so_far.why_ended == 'interrupted':
@@ -227,7 +227,7 @@ def _first_look(
     )
 
 
-def _tell(
+def _report(
     args: argparse.Namespace,
     so_far: Exploration,
     known: tuple[Scenario | None, int, str | None, float],
@@ -236,7 +236,7 @@ def _tell(
 ) -> None:
     from ros2cc_extract.cli.shared.output import write_atomically
     from ros2cc_extract.explore.scenario import write_found
-    from ros2cc_extract.explore.telling import (
+    from ros2cc_extract.explore.wording import (
         as_json,
         file_name,
         found_as_text,
@@ -287,8 +287,8 @@ def _replay(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     from ros2cc_extract.confirm.processes import release_of
     from ros2cc_extract.explore.replaying import replay
     from ros2cc_extract.explore.scenario import read_found
-    from ros2cc_extract.explore.telling import replay_as_json, replay_as_text
     from ros2cc_extract.explore.watching import run_process
+    from ros2cc_extract.explore.wording import replay_as_json, replay_as_text
 
     scenario, found = read_found(args.replay)
     python = _python_of(args, scenario.command)

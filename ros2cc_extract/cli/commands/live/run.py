@@ -61,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
-    from ros2cc_extract.cli.shared.releases import tell_releases
+    from ros2cc_extract.cli.shared.releases import report_releases
     from ros2cc_extract.errors import InputError
     from ros2cc_extract.extract.live.run import run_command
 
@@ -72,7 +72,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
     compare = _comparison(args.check, stdout, stderr) if args.check else None
 
     def finish(live: tuple[Spec, ...]) -> int:
-        tell_releases((unit.rclpy for unit in live), stderr)
+        report_releases((unit.rclpy for unit in live), stderr)
         return compare(live) if compare else EXIT_CLEAN
 
     return run_command(
@@ -120,7 +120,7 @@ def _comparison(source: Path, stdout: TextIO, stderr: TextIO) -> Callable[[tuple
 
 
 def _started(units: Sequence[Spec], live: Sequence[Spec]) -> list[Spec]:
-    """Leave out other programs of a package: those of whose units the run holds none."""
+    """Leave out other programs of a package: those without a unit in the run."""
     from ros2cc_extract.compare.merge import match_units
 
     entries = {unit.entry for unit, _ in match_units(units, live)[0]}
@@ -128,7 +128,7 @@ def _started(units: Sequence[Spec], live: Sequence[Spec]) -> list[Spec]:
 
 
 def _is_of(unit: Spec, source: Path, scanned: Sequence[Spec]) -> bool:
-    """Tell whether a live unit is made in the files that were scanned, or is one of theirs."""
+    """Return whether a live unit is made in the files that were scanned, or is one of theirs."""
     from ros2cc_extract.compare.merge import match_units
     from ros2cc_extract.files import real_path
 

@@ -49,7 +49,7 @@ class Given:
     One parameter; ``value`` as it is written, or as a text that YAML reads.
 
     :param kind: the type that the launch file gives it, as XML names it: ``int``, ``float``,
-        ``bool``, ``str``, and these after ``list_of_``. Without one, YAML tells.
+        ``bool``, ``str``, and these after ``list_of_``. Without one, YAML decides.
     """
 
     name: Expression

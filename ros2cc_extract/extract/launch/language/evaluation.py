@@ -1,5 +1,5 @@
 """
-What substitutions stand for, given what is set; ``Unknown`` where that cannot be told.
+What substitutions stand for, given what is set; ``Unknown`` if that cannot be resolved.
 
 Source: launch (Jazzy) ``substitutions/``, ``conditions/evaluate_condition_expression_impl.py``
 (``true`` and ``1``, ``false`` and ``0``, in any case).
@@ -37,9 +37,9 @@ ShareOf = Callable[[str], FilePath | None]
 
 class Evaluator:
     """
-    Tells what expressions are.
+    Evaluates expressions.
 
-    :param share_of: the folder of a package, ``None`` where it is not in sight.
+    :param share_of: the folder of a package, ``None`` where it is not known.
     """
 
     def __init__(self, context: Context, share_of: ShareOf) -> None:
@@ -126,7 +126,7 @@ class Evaluator:
         if isinstance(name, Unknown):
             return name
         folder = self._share_of(name)
-        return Unknown(f'package {name} is not in sight') if folder is None else str(folder)
+        return Unknown(f'package {name} is not found') if folder is None else str(folder)
 
     def _logic(self, part: Logic) -> Value:
         values = [self.value(operand) for operand in part.operands]
@@ -135,7 +135,7 @@ class Evaluator:
                 return value
         texts = [str(value) for value in values]
         if part.operator in ('equals', 'not-equals') and len(texts) == 2:
-            return _told((texts[0] == texts[1]) is (part.operator == 'equals'))
+            return _as_text((texts[0] == texts[1]) is (part.operator == 'equals'))
         truths = [_truth(text) for text in texts]
         if part.operator == 'if' and truths and truths[0] is not None:
             rest = texts[1:] if truths[0] else texts[2:]
@@ -143,11 +143,11 @@ class Evaluator:
         if not truths or None in truths:
             return Unknown(f'{part.operator} of {", ".join(texts)}')
         if part.operator == 'not':
-            return _told(not truths[0])
-        return _told(all(truths) if part.operator == 'and' else any(truths))
+            return _as_text(not truths[0])
+        return _as_text(all(truths) if part.operator == 'and' else any(truths))
 
 
-def _told(value: bool) -> str:
+def _as_text(value: bool) -> str:
     return 'true' if value else 'false'
 
 

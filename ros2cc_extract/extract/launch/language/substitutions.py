@@ -1,8 +1,8 @@
 """
 Substitutions of launch files: texts that are known only when the file is launched.
 
-Source: launch (Jazzy) ``substitutions/``, launch_ros ``substitutions/``. What they stand for
-is told by ``evaluation.py``.
+Source: launch (Jazzy) ``substitutions/``, launch_ros ``substitutions/``. ``evaluation.py`` finds
+what they stand for.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Configuration:
 
 @dataclass(frozen=True)
 class Variable:
-    """``EnvironmentVariable``, ``$(env …)``: known to nobody before the launch."""
+    """``EnvironmentVariable``, ``$(env …)``: unknown before the launch."""
 
     name: Expression
     default: Expression | None = None
@@ -72,7 +72,7 @@ class ThisFile:
 
 @dataclass(frozen=True)
 class Unresolved:
-    """What cannot be told before the launch."""
+    """What is unknown before the launch."""
 
     why: Unknown
 
@@ -90,5 +90,5 @@ def text(value: str) -> Expression:
 
 
 def unresolved(why: Unknown) -> Expression:
-    """An expression that cannot be told."""
+    """Return an expression whose value is unknown."""
     return (Unresolved(why),)

@@ -146,7 +146,7 @@ class Actions:
         return [each if each.open else replace(each, open=why) for each in found]
 
     def of_list(self, value: Value | None, place: Place) -> list[Action]:
-        """The actions of a list; what could not be followed is told as such."""
+        """The actions of a list; what could not be followed is marked as such."""
         items, rest = self._values.items(value, place)
         found = [action for item in items for action in self._of_item(item, place)]
         if rest is not None:
@@ -301,7 +301,7 @@ class Actions:
     def _computed(self, call: Call) -> Action:
         function = call.argument(0, 'function')
         if function is None:
-            return Unfollowed(place=call.place, why=Unknown('no function is in sight'))
+            return Unfollowed(place=call.place, why=Unknown('no function is found'))
         return Computed(place=call.place, function=self._follow(function, call))
 
     def _handler(self, call: Call) -> Action:

@@ -100,13 +100,13 @@ class PythonFile:
     def _described(self, module: Module) -> list[Action]:
         function = module.slots.get(_START)
         if not isinstance(function, Function):
-            why = Unknown(f'no function {_START} is in sight')
+            why = Unknown(f'no function {_START} is found')
             return [Unfollowed(place=self._place, why=why)]
         description = self._machine.call(function, Call(function.place))
         return self._actions.of_description(description, function.place)
 
     def _bounded(self, act: Callable[[], None], place: Place) -> list[Action]:
-        """Do ``act``; what is too large or nested too deeply is told."""
+        """Do ``act``; what is too large or nested too deeply is reported."""
         machine, context = self._machine, self._context
         machine.steps = context.steps
         machine.step_limit = min(context.steps + _STEPS, _STEPS_IN_ALL)

@@ -64,7 +64,7 @@ def changed(act: Callable[[str], str]) -> Handler:
 
 
 def member(value: Value, name: str) -> Value | None:
-    """``path.parent`` and the like; ``None`` for what is none of a path."""
+    """``path.parent`` and the like; ``None`` for a name that no path has."""
     if not isinstance(value, Const) or not isinstance(value.value, str):
         return None
     if name in _PARTS:

@@ -2,7 +2,7 @@
 launch and launch_ros as a table for the interpreter: objects that keep how they were made.
 
 Source: launch, launch_ros (Jazzy). Classes are known by their last name, in whichever module of
-these packages they stand. What an object means is told by ``values.py``, once the file was
+these packages they stand. ``values.py`` finds what an object means, once the file was
 followed to its end, since lists may be filled behind its making.
 """
 
@@ -149,7 +149,7 @@ def _share(share_of: ShareOf) -> Handler:
             return machine.mystery('package that could not be followed', call.place)
         folder = share_of(name.value)
         if folder is None:
-            return machine.mystery(f'package {name.value} is not in sight', call.place)
+            return machine.mystery(f'package {name.value} is not found', call.place)
         return Const(str(folder))
 
     return handler

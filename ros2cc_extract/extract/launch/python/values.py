@@ -64,7 +64,7 @@ _SCALARS = (str, int, float, bool)
 
 
 def made(value: Value | None) -> Made | None:
-    """What launch knows of an object; ``None`` where it is none of launch."""
+    """What launch knows of an object; ``None`` if it is not an object of launch."""
     state = value.state if isinstance(value, Instance) else None
     return state if isinstance(state, Made) and state.call is not None else None
 

@@ -1,5 +1,5 @@
 """
-What a ``CMakeLists.txt`` installs as programs, as far as its text tells; it is never run.
+What a ``CMakeLists.txt`` installs as programs, as far as its text shows; it is never run.
 
 Source: CMake, ``install(PROGRAMS)`` and ``install(DIRECTORY)``, ``set``, ``add_executable``.
 """

@@ -72,7 +72,7 @@ class Packages:
         return self._found.get(name)
 
     def executable(self, package: str, name: str) -> Executable | None:
-        """What ``ros2 run PACKAGE NAME`` runs; ``None`` where that is not in sight."""
+        """What ``ros2 run PACKAGE NAME`` runs; ``None`` where that is not known."""
         folder = self._found.get(package)
         if folder is None:
             return None
@@ -122,7 +122,7 @@ class Packages:
         return self._declared[folder]
 
     def unread(self, package: str) -> tuple[Unknown, ...]:
-        """Why a package may install more programs than are in sight."""
+        """Why a package may install more programs than are known."""
         folder = self._found.get(package)
         return () if folder is None else self.declared(folder).unread
 

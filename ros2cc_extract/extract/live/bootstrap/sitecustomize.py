@@ -45,6 +45,6 @@ def _run_next_sitecustomize() -> None:
 if os.environ.get('ROS2CC_LIVE_DIR'):
     try:
         _load_hook()
-    except Exception as error:  # the program is to run, whatever happens to us
+    except Exception as error:  # the program must run even if the hook fails
         print(f'ros2cc-extract: the hook cannot be installed: {error!r}', file=sys.stderr)
 _run_next_sitecustomize()

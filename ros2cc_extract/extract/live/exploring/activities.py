@@ -1,5 +1,5 @@
 """
-Who is at work, and who waits for his turn.
+Which threads are at work, and which wait for their turn.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours.
@@ -24,7 +24,7 @@ class Activity:
 
 class Asked:
     """
-    A callback that is ready, and for which its group is asked.
+    A ready callback whose group is asked.
 
     :param last: when that was the last time.
     """

@@ -1,5 +1,5 @@
 """
-Who asks whether a callback may begin, read from the stack of the asking thread.
+What asks whether a callback may begin, read from the stack of the asking thread.
 
 Source: rclpy 7.1.6 and 9.1.2, ``executors.py``.
 

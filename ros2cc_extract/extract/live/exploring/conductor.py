@@ -29,14 +29,14 @@ TICK_S, RESTS_S = 0.004, 0.4
 STANDS_S = 0.7
 LOOKS_APART_S = 1.0
 MOST_LOOKS, LOOKS_AT_IDLENESS = 7, 4
-Tell = Callable[..., None]
+Write = Callable[..., None]
 
 
 class Limits:
     """
     When a schedule is over.
 
-    :param rounds: how often everybody has come to his end; 0 for no such limit.
+    :param rounds: how often all threads have come to their ends; 0 for no such limit.
     """
 
     def __init__(self, row: dict[str, Any]) -> None:
@@ -47,12 +47,12 @@ class Limits:
 
 class Conductor:
     """
-    :param tell: writes a row of the report.
+    :param write: writes a row of the report.
     """
 
-    def __init__(self, control: Control, tell: Tell, limits: Limits) -> None:
+    def __init__(self, control: Control, write: Write, limits: Limits) -> None:
         self._control = control
-        self._tell = tell
+        self._write = write
         self._limits = limits
         self._explained: set[int] = set()
         self._idleness_is_explained = False
@@ -66,7 +66,7 @@ class Conductor:
 
     def run(self, row: dict[str, Any]) -> None:
         """
-        Run one schedule: take control, let go, and look where somebody stands.
+        Run one schedule: take control, let go, and look where threads stand.
 
         :raises KeyError, ValueError, TypeError: where the row is no schedule.
         """
@@ -77,11 +77,11 @@ class Conductor:
             self._control.look_at_the_clock()
         self.end()
         self._look_while_it_stands()
-        self._tell('done', schedule=self.schedule)
+        self._write('done', schedule=self.schedule)
 
     def begin(self, row: dict[str, Any]) -> None:
         self.schedule = int(row['number'])
-        self._tell('schedule', schedule=self.schedule)
+        self._write('schedule', schedule=self.schedule)
         if row['policy'] == PLAIN:
             self._control.watch()
         else:
@@ -100,7 +100,7 @@ class Conductor:
     def end(self) -> None:
         control = self._control
         control.let_go()
-        self._tell('choices', **self.so_far(), choosable=control.choosable, begins=control.begins)
+        self._write('choices', **self.so_far(), choosable=control.choosable, begins=control.begins)
 
     def so_far(self) -> dict[str, Any]:
         """What was chosen in this schedule."""
@@ -129,14 +129,16 @@ class Conductor:
             time.sleep(0.02)
         before = self._standing()
         for _ in range(MOST_LOOKS if before else LOOKS_AT_IDLENESS):
-            self._tell('looks', schedule=self.schedule, looks=look_twice(), running=sorted(before))
+            self._write(
+                'looks', schedule=self.schedule, looks=look_twice(), running=sorted(before)
+            )
             time.sleep(LOOKS_APART_S - probe.APART_S)
             if before and not (before := before & self._standing()):
                 return
         self._explained |= before
         self._idleness_is_explained = True
         if before:
-            self._tell('stands', schedule=self.schedule, running=sorted(before))
+            self._write('stands', schedule=self.schedule, running=sorted(before))
 
     def _standing(self) -> set[int]:
         return set(self._control.running) - self._explained

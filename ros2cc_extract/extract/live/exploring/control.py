@@ -2,8 +2,8 @@
 Lets one callback at a time go on, from one point of control to the next.
 
 Points are the begin of a callback, and the instructions that the plan names: waits, locks, and
-accesses of shared data. Who comes to one is held until it is chosen. Who is on its way and
-stands still, because it really waits, is no longer waited for; so nobody is held forever, and
+accesses of shared data. A thread at one is held until it is chosen. A thread on its way that
+stands still, because it really waits, is no longer waited for; so no thread is held forever, and
 what only the schedule keeps back is never taken for a hang.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
@@ -23,11 +23,11 @@ from .askers import asks_again, is_nested, is_of_pool
 from .policies import BEGIN, Policy
 from .stillness import Rest, Way
 
-# Who was asked for that long ago is not ready any more: a timer was cancelled, a group closed.
+# An entity asked for this long ago is no longer ready: a timer was cancelled, a group closed.
 _STALE_S = 0.4
-# Who may begin and does not is waiting for a thread, or its group was closed meanwhile.
+# One that may begin and does not waits for a thread, or its group was closed meanwhile.
 _TAKES_UP_S = 0.15
-# Nobody is ready any more; what a callback has published has arrived by then.
+# Nothing is ready any more; what a callback has published has arrived by then.
 _EXHAUSTED_S = 0.5
 
 
@@ -35,14 +35,14 @@ class Control:
     """
     All threads of the process, as far as they come to points of control.
 
-    :param begun: is told of each callback of the program that begins.
+    :param begun: called with each callback of the program that begins.
     :param known: labels of callbacks that may be ready soon.
-    :param refuses: who may not begin yet is refused, and asked for again; else it waits, where
-        that holds nobody else, and may begin at once where nobody is sure to ask again.
-    :param is_open: everybody goes on as without control.
-    :param choices: who was chosen, and where it stood.
-    :param choosable: those among whom each of these was chosen.
-    :param rounds: after how many choices nobody was on his way any more.
+    :param refuses: one that may not begin yet is refused, and asked for again; else it waits, if
+        that holds up no other, and may begin at once if it is not sure to be asked for again.
+    :param is_open: all threads go on as without control.
+    :param choices: the chosen threads, and where each stood.
+    :param choosable: the candidates of each choice.
+    :param rounds: after how many choices no thread was on its way any more.
     :param begins: how many callbacks have begun since control was taken.
     :param moved_at: when one has begun or ended last.
     """
@@ -54,7 +54,7 @@ class Control:
         *,
         refuses: bool = True,
     ) -> None:
-        self._tell_begun = begun
+        self._report_begun = begun
         self._changed = threading.Condition(threading.Lock())
         self._policy: Policy | None = None
         self.is_closed = False
@@ -91,7 +91,7 @@ class Control:
         """
         Take control: from now on the policy decides.
 
-        :param once: each callback begins but once, and nobody is chosen before all others are held
+        :param once: each callback begins but once, and none is chosen before all others are held
             or stand still; so the same choices lead to the same choice again.
         """
         with self._changed:
@@ -110,7 +110,7 @@ class Control:
         self.is_closed = True
 
     def let_go(self) -> None:
-        """Let everybody go on."""
+        """Let all threads go on."""
         with self._changed:
             self._policy, self.is_closed = None, False
             for held in self._held.values():
@@ -166,7 +166,7 @@ class Control:
             if self._granted is not None and self._granted[0].entity is entity:
                 self._granted = None
                 self._send(activity)
-        self._tell_begun(entity)
+        self._report_begun(entity)
 
     def refused(self, entity: Any) -> None:
         with self._changed:
@@ -209,7 +209,7 @@ class Control:
             self._held.pop(thread, None)
 
     def look_at_the_clock(self) -> None:
-        """Notice who stands still, and decide; to be called some hundred times a second."""
+        """Notice which threads stand still, and decide; call it some hundred times a second."""
         with self._changed:
             if self._policy is None:
                 return
@@ -230,12 +230,12 @@ class Control:
 
     @property
     def is_exhausted(self) -> bool:
-        """Whether there was nobody to choose from for a while, after the first choice."""
+        """Whether there were no candidates for a while, after the first choice."""
         return bool(self.choices) and time.monotonic() - self.idle_since > _EXHAUSTED_S
 
     @property
     def is_quiet(self) -> bool:
-        """Whether nobody of the program is at work."""
+        """Whether no thread of the program is at work."""
         return not self.running
 
     def _send(self, activity: Activity) -> None:
@@ -247,7 +247,7 @@ class Control:
         return {each.thread for each in self.running.values()} - held
 
     def _decide(self, *, is_settled: bool = False) -> None:
-        """Choose who goes on, unless somebody is on his way; the lock is held."""
+        """Choose the thread that goes on, unless one is on its way; the lock is held."""
         if self._policy is None or self._on_way is not None or self._granted is not None:
             return
         if self._once and not is_settled:
@@ -282,7 +282,7 @@ class Control:
             self._changed.notify_all()
 
     def _gathered(self, now: float) -> bool:
-        """Whether all who may be ready soon have been waited for; once when somebody is first."""
+        """Whether all that may be ready soon have been waited for; once when one is first."""
         if not self._asked:
             self._gathers_since, self._has_gathered = None, False
         elif not self._has_gathered:

@@ -67,31 +67,31 @@ class Exploration:
             return
         report = Report(self._plan['report'])
         report.write('started', process=os.getpid())
-        told: set[str] = set()
+        reported: set[str] = set()
 
-        def tell_begun(entity: Any) -> None:
+        def report_begun(entity: Any) -> None:
             label = label_of(entity)
-            if label not in told:
-                told.add(label)
+            if label not in reported:
+                reported.add(label)
                 report.write('callback', label=label, file=file_of(entity))
 
-        control = Control(tell_begun, map(str, self._plan.get('known', ())))
+        control = Control(report_begun, map(str, self._plan.get('known', ())))
         conductor = Conductor(control, report.write, Limits(self._plan.get('limits', {})))
 
-        def tell_lost(mark: Mark, **values: Any) -> None:
+        def report_lost(mark: Mark, **values: Any) -> None:
             report.write('lost', **lost_row(mark, conductor, values))
 
-        def tell_failed(row: dict[str, Any]) -> None:
+        def report_failed(row: dict[str, Any]) -> None:
             report.write('failed', **conductor.so_far(), **row)
 
-        failures = Failures(tell_failed)
+        failures = Failures(report_failed)
         failures.watch_threads()
         failures.watch_callbacks(sys.modules['rclpy.task'].Future)
         steer_groups(sys.modules['rclpy.callback_groups'], control)
         points = [Point(each) for each in self._plan.get('points', ())]
         if points:
             everywhere = bool(self._plan.get('everywhere', False))
-            Tracing(Marks(points), control, tell_lost, everywhere=everywhere).start()
+            Tracing(Marks(points), control, report_lost, everywhere=everywhere).start()
 
         def run() -> None:
             conductor.wait_for(Surroundings(str(self._plan.get('surroundings', ''))))
@@ -117,7 +117,7 @@ def lost_row(mark: Mark, conductor: Conductor, values: dict[str, Any]) -> dict[s
 
 
 def _end_with(watcher: int) -> None:
-    """Whoever watches has been killed: nobody else would end this process."""
+    """End with the watching process: if that was killed, nothing else would end this one."""
     while watcher:
         time.sleep(1.0)
         try:

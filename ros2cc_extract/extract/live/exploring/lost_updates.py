@@ -16,7 +16,7 @@ from typing import Any
 from ..steering.values import NOTHING, copied, shown, target, value
 from .marks import READ, WRITE, Mark
 
-Tell = Callable[..., None]
+Report = Callable[..., None]
 
 
 class Writers:
@@ -37,17 +37,17 @@ class Accesses:
     """
     What one call of a function has read, and writes.
 
-    :param tell: is told of a lost update.
+    :param report: called with a lost update.
     """
 
-    def __init__(self, writers: Writers, tell: Tell) -> None:
+    def __init__(self, writers: Writers, report: Report) -> None:
         self._writers = writers
-        self._tell = tell
+        self._report = report
         self._read: dict[str, tuple[Any, int]] = {}
         self._lost: dict[str, Any] | None = None
 
     def before(self, mark: Mark, frame: FrameType) -> None:
-        """The thread is about to run a marked instruction, and nobody holds it any more."""
+        """The thread is about to run a marked instruction, and is no longer held."""
         if mark.kind != WRITE or not mark.rests or mark.attribute not in self._read:
             return
         owner = _owner(frame, mark)
@@ -67,9 +67,9 @@ class Accesses:
             self._writers.note(owner, mark.attribute)
             self._read[mark.attribute] = own, mark.line
             lost, self._lost = self._lost, None
-            # Who was only led to store what the other one has stored has taken nothing away.
+            # A thread that only stores the value of the other one loses no update.
             if lost is not None and (mark.computed or shown(own) != lost['other']):
-                self._tell(mark, own=shown(own), **lost)
+                self._report(mark, own=shown(own), **lost)
 
 
 def _owner(frame: FrameType, mark: Mark) -> Any:

@@ -147,7 +147,7 @@ def _mark_wait(
     code: CodeType,
     lines: dict[int, int],
 ) -> None:
-    """The first instruction of the call, or of the line where Python does not tell columns."""
+    """The first instruction of the call, or of the line if Python gives no columns."""
     of_line = [each.offset for each in instructions if lines.get(each.offset) == point.line]
     positions = getattr(code, 'co_positions', None)
     if positions is not None and point.column:

@@ -1,10 +1,10 @@
 """
-Who goes on next: the policies of a schedule.
+Which thread goes on next: the policies of a schedule.
 
 Random priorities are those of PCT (Burckhardt, Kothari, Musuvathi, Nagarakatte: A Randomized
 Scheduler with Probabilistic Guarantees of Finding Bugs, ASPLOS 2010): each activity gets a random
 priority, the highest one goes on, and at depth - 1 steps, chosen at random among as many as the
-schedule is expected to have, whoever is about to go on falls below all others. Bounded preemption
+schedule is expected to have, the thread about to go on falls below all others. Bounded preemption
 is that of CHESS (Musuvathi, Qadeer: Iterative Context Bounding, PLDI 2007).
 
 Runs inside the user's process: the standard library only.
@@ -19,12 +19,12 @@ from typing import Any, Protocol
 
 BEGIN = 'begin'
 """Where a callback stands that its group is asked for."""
-# In a replay: how long somebody who is due is waited for. Slow timers have a second.
+# In a replay: how long to wait for a due candidate. Slow timers have a second.
 PATIENCE_S = 1.6
 
 
 class Candidate(Protocol):
-    """Somebody who may go on."""
+    """A thread or callback that may go on."""
 
     @property
     def key(self) -> str:
@@ -40,15 +40,15 @@ class Policy(Protocol):
 
     def choose(self, candidates: Sequence[Candidate], last: str) -> Candidate | None:
         """
-        Choose who goes on; `None` to wait for somebody else.
+        Choose the candidate that goes on; `None` to wait for another one.
 
         :param candidates: at least one, in the order of their keys.
-        :param last: the key of who went on before.
+        :param last: the key of the one that went on before.
         """
 
     @property
     def is_over(self) -> bool:
-        """Whether everybody may go on from now on."""
+        """Whether all threads may go on from now on."""
 
 
 class Priorities:
@@ -76,7 +76,7 @@ class Priorities:
     def _priority(self, candidate: Candidate) -> float:
         key = candidate.key
         if key not in self._known:
-            # By name, so that it does not depend on who comes first.
+            # By name, so that it does not depend on which comes first.
             self._known[key] = random.Random(f'{self._seed}/{key}').random()
         return self._known[key]
 
@@ -94,7 +94,7 @@ class RandomWalk:
 
 
 class FewPreemptions:
-    """Whoever goes on, goes on; but for a few steps, chosen at random."""
+    """The current thread goes on, except at a few steps, chosen at random."""
 
     is_over = False
 
@@ -116,8 +116,8 @@ class Recorded:
     """
     The choices of a recorded schedule, in their order.
 
-    Runs of one callback are alike: which of them goes on is not recorded. Who is due and does not
-    come in time is left out, as another process may have begun elsewhere.
+    Runs of one callback are alike: which of them goes on is not recorded. One that is due but does
+    not come in time is left out, as another process may have begun elsewhere.
     """
 
     def __init__(self, choices: Sequence[Sequence[str]]) -> None:
@@ -150,7 +150,7 @@ class Recorded:
 
 class Prefix:
     """
-    Fixed first choices, then whoever goes on goes on: one leaf of a depth-first search.
+    Fixed first choices, then the current thread goes on: one leaf of a depth-first search.
 
     :param steps: after so many choices it is over.
     """

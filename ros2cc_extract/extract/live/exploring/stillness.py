@@ -1,5 +1,5 @@
 """
-Which threads stand still: they really wait, and whoever waits for them would wait forever.
+Which threads stand still: they really wait, and a thread that waits for them waits forever.
 
 Runs inside the user's process: the standard library only.
 """

@@ -26,7 +26,7 @@ Trace = Callable[[FrameType, str, Any], Any]
 
 class Tracing:
     """
-    :param tell_lost: is told of each lost update.
+    :param report_lost: called with each lost update.
     :param everywhere: hold at every mark, also where an interpreter with its global lock would
         let no other thread in since the mark before.
     """
@@ -35,7 +35,7 @@ class Tracing:
         self,
         marks: Marks,
         control: Control,
-        tell_lost: Callable[..., None],
+        report_lost: Callable[..., None],
         *,
         everywhere: bool = False,
     ) -> None:
@@ -43,7 +43,7 @@ class Tracing:
         self.control = control
         self.everywhere = everywhere or not has_global_lock()
         self.calls = _Calls()
-        self._tell_lost = tell_lost
+        self._report_lost = report_lost
         self._writers = Writers()
 
     def start(self) -> None:
@@ -70,7 +70,7 @@ class Tracing:
             return None
         trace_instructions(frame)
         frame.f_trace_lines = False
-        return _OfCall(of_code, self, Accesses(self._writers, self._tell_lost)).trace
+        return _OfCall(of_code, self, Accesses(self._writers, self._report_lost)).trace
 
 
 class _Calls(threading.local):

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 NODE = '_ros2cc_listing'
-# Whose first announcement is lost is seen by the next, each 3 s (Fast DDS documentation, general
+# If a first announcement is lost, the next follows after 3 s (Fast DDS documentation, general
 # discovery settings: default of `leaseDuration_announcementperiod`).
 SETTLED_S = 4.0
 ROUND_S = 0.1

@@ -46,7 +46,7 @@ def running_system(python: str, seconds: float) -> System:
         raise ToolNotFoundError(f'{python} listed the graph in another form: {error!r}') from error
     domain = os.environ.get('ROS_DOMAIN_ID', '0')
     if not processes:
-        what = f'no node is in sight in ROS domain {domain} within {seconds:g} s'
+        what = f'no node is found in ROS domain {domain} within {seconds:g} s'
         mend = (
             'compare ROS_DOMAIN_ID and ROS_AUTOMATIC_DISCOVERY_RANGE, or wait longer by --seconds'
         )

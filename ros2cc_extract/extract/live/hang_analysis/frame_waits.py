@@ -122,7 +122,7 @@ def _of_condition(activity: Activity, frame: Frame, look: Look) -> Wait:
 def _of_source(frame: Frame, look: Look) -> Wait:
     asked = list(_asked(frame))
     if len(asked) > 1:
-        return Wait(Kind.LOCK)  # one of several, and the interpreter does not tell which
+        return Wait(Kind.LOCK)  # one of several, and the interpreter does not say which
     for expression, call in asked:
         name = ast.unparse(expression)
         number = frame.objects.get(name)
@@ -185,7 +185,7 @@ def _entered(node: ast.With, frame: Frame) -> list[ast.withitem]:
 
 
 def _entering(node: ast.With | ast.AsyncWith, frame: Frame) -> list[ast.withitem]:
-    """The item of which the frame stands at the beginning; several where it is not known."""
+    """The item at whose beginning the frame stands; several if it is not known."""
     whole = _is_at(node, frame)  # all items have the place of the statement in Python 3.11
     here = [item for item in node.items if whole or _is_at(item.context_expr, frame)]
     return here if frame.item is None else here[frame.item : frame.item + 1]
@@ -193,7 +193,7 @@ def _entering(node: ast.With | ast.AsyncWith, frame: Frame) -> list[ast.withitem
 
 @functools.cache
 def _tree(file: str) -> ast.Module:
-    """Give the source as it is now; what cannot be read tells nothing."""
+    """Return the tree of the source as it is now; an empty one if it cannot be read."""
     try:
         return ast.parse(read_regular(Path(file), _MOST_SOURCE_BYTES))
     except (OSError, SyntaxError, ValueError, RecursionError):

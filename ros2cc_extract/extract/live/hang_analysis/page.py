@@ -87,7 +87,7 @@ def _of_process(explanation: Explanation) -> Iterator[str]:
 
 
 def _chain(standing: Standing, look: Look) -> Iterator[str]:
-    """From who waits over what it waits for to what keeps that."""
+    """The chain from the waiting thread over what it waits for to what keeps that."""
     activity, place = standing.activity, standing.activity.place
     never = '' if standing.can_end else ' class="never"'
     code = f'{standing.code} ' if standing.code else ''
@@ -119,5 +119,5 @@ def _line(place: Frame) -> str:
 
 
 def _text(text: str) -> str:
-    """Names and lines are whatever the process says."""
+    """Escape a text; names and lines come from the process and may hold anything."""
     return escape(one_line(text))

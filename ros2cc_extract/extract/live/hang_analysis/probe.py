@@ -104,7 +104,7 @@ def _of_rclpy() -> tuple[list[Any], list[Any], list[Any]]:
         if found is not None:
             found.append(each)
         if number % _MOST_AT_ONCE == 0:
-            # Who waits for the lock of the interpreter has it now, not when the time is over.
+            # A thread that waits for the interpreter's lock gets it now, not at the end.
             time.sleep(0)
     return executors, nodes, tasks
 
@@ -158,7 +158,7 @@ def _frame(frame: FrameType, objects: dict[int, dict[str, Any]]) -> dict[str, An
             name: _object(value, objects) for name, value in values.items() if _of_interest(value)
         },
         'endless': _is_endless(known),
-        # Who runs a callback: `Executor._make_handler`, its coroutine `handler`.
+        # What runs a callback: `Executor._make_handler`, its coroutine `handler`.
         'entity': id(known['entity']) if _runs_an_entity(frame) else None,
     }
 
@@ -191,7 +191,7 @@ def _position(frame: FrameType) -> list[int] | None:
 
 def _item(frame: FrameType) -> int | None:
     """
-    Which item of its `with` a frame is entering, where positions do not tell.
+    Which item of its `with` a frame is entering, where positions do not show it.
 
     Until Python 3.11 all items of a statement have the place of the statement, or only its line.
     """
@@ -264,7 +264,7 @@ def _node(node: Any) -> dict[str, Any]:
         context = node.context.handle
         with context:
             row['domain'] = context.get_domain_id()
-    # `use_sim_time`: then a rate waits for whoever publishes `/clock`.
+    # `use_sim_time`: then a rate waits for a publisher of `/clock`.
     row['simulated_clock'] = bool(
         getattr(getattr(node, '_clock', None), 'ros_time_is_active', False)
     )

@@ -19,11 +19,11 @@ class Frame:
     """
     One call of a stack.
 
-    :param called: the function with its class where Python tells it, as ``Navigator.drive``.
+    :param called: the function with its class if Python gives it, as ``Navigator.drive``.
     :param item: which item of its `with` it is entering, of those that stand at its place.
     :param objects: locks, events, clients … that the frame names, by name, as object numbers.
-    :param endless: no time-out was given, as far as the frame tells.
-    :param entity: whose callback it runs, for the one frame of rclpy that does.
+    :param endless: no time-out was given, as far as the frame shows.
+    :param entity: the entity whose callback it runs, for the one frame of rclpy that does.
     """
 
     number: int
@@ -73,7 +73,7 @@ class Activity:
 
     @property
     def entities(self) -> tuple[int, ...]:
-        """Whose callbacks are on the stack."""
+        """The entities whose callbacks are on the stack."""
         own = () if self.entity is None else (self.entity,)
         return own + tuple(each.entity for each in self.frames if each.entity is not None)
 
@@ -127,7 +127,7 @@ class Entity:
 
     @property
     def builtin(self) -> bool:
-        """Made by rclpy, and running nothing of the program, as far as can be told."""
+        """Made by rclpy, and running nothing of the program, as far as is known."""
         if self.kind == 'clients':
             return not self.pending
         if self.function is not None and 'set_parameters' in self.function:

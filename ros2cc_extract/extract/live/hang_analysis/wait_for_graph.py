@@ -1,5 +1,5 @@
 """
-Who waits for whom, and whether any of it can still end: the wait-for graph of processes.
+The wait-for graph of processes: which waits for which, and whether any wait can still end.
 
 What may end a wait is taken too wide rather than too narrow: an event may be set by any callback
 that can still be served and by any thread that still moves. So nothing is left that could end
@@ -17,7 +17,7 @@ from ros2cc_extract.extract.live.hang_analysis.frame_waits import Kind, Wait, lo
 from ros2cc_extract.extract.live.hang_analysis.samples import Activity, Entity, Executor, Look
 
 BY_ANY_CODE = (Kind.EVENT, Kind.CONDITION, Kind.QUEUE, Kind.FUTURE)
-"""Waits that whatever runs in the process may end."""
+"""Waits that any running code of the process may end."""
 _ANSWERS = (Kind.ANSWER, Kind.ACTION)
 _OWN_BUSINESS = (Kind.EVENT, Kind.CONDITION, Kind.QUEUE, Kind.WORK, Kind.FUTURE, Kind.JOIN)
 
@@ -151,7 +151,7 @@ class _Graph:
         }
         self.holders: dict[int, set[int]] = {}
         for index, each in enumerate(look.activities):
-            # Who waits for a condition has let go of its lock.
+            # A thread that waits for a condition has released its lock.
             if self.waits[index].kind is not Kind.CONDITION:
                 for lock, _ in locks_held(each):
                     self.holders.setdefault(lock, set()).add(index)
@@ -178,7 +178,7 @@ class _Graph:
             return self.is_served(client) and self._is_answered(client)
         if wait.kind is Kind.RATE:
             timer = look.entities.get(wait.resource or 0)
-            # Who moves a simulated clock is not of this process.
+            # A simulated clock is moved by another process.
             return timer is None or timer.simulated_clock or self.is_served(timer)
         if wait.kind is Kind.LOCK:
             holders = self._holders(wait.resource or 0)
@@ -248,7 +248,7 @@ class _Graph:
         return executor.workers is None or len(self.stuck(executor)) < executor.workers
 
     def keepers(self, entity: Entity) -> set[int]:
-        """Who runs the callback that keeps the group of ``entity`` closed."""
+        """The threads that run the callback that keeps the group of ``entity`` closed."""
         return self._runs(entity.active) if entity.active is not None else set()
 
     def has_lost_a_node(self, before: Look) -> bool:

@@ -3,7 +3,7 @@ What the watch has found, on ``/diagnostics`` (REP 107), once a second.
 
 Runs inside the user's process, in the thread that writes the recording: the standard library,
 and what the process has loaded of rclpy. The publisher is one more of a node of the program: a
-node of our own would be in its graph, with services that nobody serves.
+node of our own would be in its graph, with services that nothing serves.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@ Measures callbacks of the executor written in C++, which never asks a callback g
 
 rclpy 7.1.4 and later, ``rclpy/experimental/events_executor.py``: for each event it reads the
 attribute ``callback`` of the entity and calls what it gets. So that attribute, read from there
-and from nowhere else, gives a function that notes begin and end; nobody else ever sees it.
+and from nowhere else, gives a function that notes begin and end; no other code ever sees it.
 Coroutine functions are left as they are: the executor asks what they are.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
@@ -28,7 +28,7 @@ _KEPT = '_ros2cc_measured'
 
 
 def mark_spinning(executor_class: Any, replace: Replace) -> None:
-    """Put a frame of ours around the C++ code, by which its reading is told from others'."""
+    """Put a frame of ours around the C++ code, which distinguishes its reading from others'."""
     for name in SPINNING:
         original = executor_class.__dict__.get(name)
         if original is not None:

@@ -1,15 +1,15 @@
 """
-Reports when a callback's group lets it begin, refuses it, and is told of its end.
+Report when a callback's group lets it begin, refuses it, and learns that it has ended.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours. What is here, or its like in C (``journal.py``), is all that stands on the way of a
 callback when no trace is asked for.
 
-The clock is read after a group was asked whether a callback may begin, and before it is told of
+The clock is read after a group was asked whether a callback may begin, and before it learns of
 an end: so runs in one exclusive group never overlap by the clock, as they do not in the group.
 
 A callback that a Ctrl-C or the end of rclpy has taken off has not come to its end: it stood
-where it was, for all that is known forever, and no end is told of it.
+where it was, for all that is known forever, and no end is reported.
 """
 
 from __future__ import annotations
@@ -56,10 +56,10 @@ def reporting(recorder: Recorder, group: type, name: str, what: int, otherwise: 
 
 
 def is_taken_off(error: BaseException, frame: Any) -> bool:
-    """Tell whether ``error``, which is dealt with now, ends from outside what ``frame`` runs."""
+    """Return whether ``error``, which is dealt with now, ends from outside what ``frame`` runs."""
     traceback = error.__traceback__
     if traceback is None or traceback.tb_frame is not frame:
-        return False  # dealt with by whoever called it
+        return False  # dealt with by its caller
     return any(cls.__name__ in _FROM_OUTSIDE for cls in type(error).__mro__)
 
 

@@ -78,7 +78,7 @@ def _plain_wait(recorder: Recorder, wait: Any, lap: CodeType, asker: Any) -> Any
     note, lose = recorder.journal.note, recorder.lose
 
     def traced_wait(*args: Any, **named: Any) -> Any:
-        told = None
+        reported = None
         try:
             caller = sys._getframe(1)
             record = None
@@ -87,15 +87,15 @@ def _plain_wait(recorder: Recorder, wait: Any, lap: CodeType, asker: Any) -> Any
             if record is not None:
                 number = record.number
                 note(WAIT, number)
-                told = number
+                reported = number
         except Exception as error:
             lose(error)
         try:
             return wait(*args, **named)
         finally:
             try:
-                if told is not None:
-                    note(WOKEN, told)
+                if reported is not None:
+                    note(WOKEN, reported)
             except Exception as error:
                 lose(error)
 
@@ -160,7 +160,7 @@ def trace_submits(recorder: Recorder, executor: Any) -> None:
     """
     Report when a task is first handed to an executor's pool of threads.
 
-    rclpy hands over whatever has not begun on every lap, which changes nothing (9.1,
+    rclpy hands over all that has not begun on every lap, which changes nothing (9.1,
     ``executors.py``). Nothing here keeps the pool alive: its threads end when it is let go.
     """
     pool = executor._executor
@@ -245,14 +245,14 @@ def _whole_run(recorder: Recorder, steps: _Steps, original: Any) -> Any:
 
 
 def mark_task(recorder: Recorder, task: Any, record: TaskRecord) -> None:
-    """Note whose task this is; it may have run already, in the thread of the executor."""
+    """Note the record of a task; it may have run already, in the thread of the executor."""
     report(recorder, TASK, record)
     task._ros2cc_record = record
     report_early_run(recorder, task)
 
 
 def report_early_run(recorder: Recorder, task: Any) -> None:
-    """Report a run that was over before the task was marked; whoever comes first does so."""
+    """Report a run that was over before the task was marked; the first thread there does so."""
     early = vars(task).pop('_ros2cc_early', None)
     if early is not None:
         began, paused, thread = early
@@ -262,7 +262,7 @@ def report_early_run(recorder: Recorder, task: Any) -> None:
 
 
 class _Steps:
-    """What to tell of one run of a task: when it began, and whether that has been told."""
+    """What to report of one run of a task: when it began, and whether that has been reported."""
 
     def __init__(self, recorder: Recorder) -> None:
         self._journal = recorder.journal
@@ -273,16 +273,16 @@ class _Steps:
             return None
         clock, moves = _clock(), _can_go_on(task)
         if moves:
-            self._tell_begin(clock, record)
+            self._report_begin(clock, record)
         return clock, moves
 
     def end(self, task: Any, record: Any, begun: tuple[int, bool] | None = None) -> None:
         if begun is not None:
-            clock, told = begun
-            if not told and not _can_go_on(task):
+            clock, reported = begun
+            if not reported and not _can_go_on(task):
                 return
-            if not told:
-                self._tell_begin(clock, record)
+            if not reported:
+                self._report_begin(clock, record)
         elif task.executing() or task._ros2cc_suspended or not _is_paused(task):
             return
         is_work = type(record) is TaskRecord
@@ -294,7 +294,7 @@ class _Steps:
         what = PAUSE if is_work else SUSPEND
         self._journal.note(what, record.number)
 
-    def _tell_begin(self, clock: int, record: Any) -> None:
+    def _report_begin(self, clock: int, record: Any) -> None:
         what = RUN if type(record) is TaskRecord else RESUME
         self._journal.put(clock, get_ident(), what, record.number)
 
@@ -305,7 +305,7 @@ def _can_go_on(task: Any) -> bool:
 
 
 def _is_paused(task: Any) -> bool:
-    """Tell a pause from a call in vain: another thread may hold the task and not run it yet."""
+    """Distinguish a pause from a call in vain: another thread may hold a task not run yet."""
     handler = task._handler
     if not inspect.iscoroutine(handler):
         return False

@@ -26,7 +26,7 @@ FILE_SUFFIX = '.why.txt'
 WALKS = 5
 _TOOL = 'ros2cc_extract'
 Run = tuple[int, int]
-"""Of which entity, and when it began."""
+"""The entity, and when the run began."""
 
 
 class Watch:

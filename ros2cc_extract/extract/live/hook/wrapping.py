@@ -1,5 +1,5 @@
 """
-What is wrapped in rclpy so that a running process tells what its executors hold.
+What is wrapped in rclpy so that a running process reports what its executors hold.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours. Executors and groups are wrapped, callbacks never. Each wrapper calls the original
@@ -35,7 +35,7 @@ from .writer import Writer
 OUTPUT_VARIABLE = 'ROS2CC_LIVE_DIR'
 TRACE_VARIABLE = 'ROS2CC_LIVE_TRACE'
 WATCHED_MODULE = 'rclpy.executors'
-# Whose callbacks the executor written in C++ calls itself.
+# Types whose callbacks the executor written in C++ calls itself.
 MEASURED_FOR_EVENTS = (
     ('rclpy.timer', 'Timer'),
     ('rclpy.subscription', 'Subscription'),
@@ -84,7 +84,7 @@ class Hook:
             sys.meta_path.insert(0, _Finder(self._wrap_at_once, self.recorder.lose))
 
     def _wrap_at_once(self, executors: Any) -> None:
-        """Wrap what was loaded just now, so that nobody can have made an executor yet."""
+        """Wrap what was loaded just now, before any code can have made an executor."""
         self.recorder.sees_every_executor = self.wrap(executors)
         if self.afterwards is not None:
             self.afterwards()

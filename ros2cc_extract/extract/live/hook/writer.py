@@ -145,7 +145,7 @@ class Writer:
                 self._trace.write(events)
             if self._flight is not None:
                 self._flight.write(events)
-            # Whoever has something to do would else wait for the last batch, or for 5 ms.
+            # A thread with something to do would else wait for the last batch, or for 5 ms.
             time.sleep(PAUSE_S)
 
     def _write(self, *, ended: bool) -> bool:

@@ -23,7 +23,7 @@
 /* Of what CPython's headers define (Include/compile.h), the same from 3.10 to 3.14. */
 enum { FILE_INPUT = 257, MOST_SCRIPT_BYTES = 1 << 20 };
 
-/* Beside this file stand the script, `.py`, and what tells whoever waits how far it came. */
+/* Beside this file are the script, `.py`, and the files that report how far it came. */
 static char stem[PATH_MAX];
 
 static int open_beside(const char *ending, int flags) {

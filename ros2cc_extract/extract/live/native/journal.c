@@ -309,7 +309,7 @@ static void give_error(PyObject *error) {
 #define give_error PyErr_SetRaisedException
 #endif
 
-/* As what is raised while another exception is dealt with: it tells of that. */
+/* As what is raised while another exception is dealt with: it reports that. */
 static void raise_during(PyObject *error) {
     PyObject *newer = take_error(), *known = PyException_GetContext(newer);
     if (!known && newer != error) PyException_SetContext(newer, Py_NewRef(error));
@@ -372,7 +372,7 @@ static PyObject *record_of(Wrapper *self, PyObject *group, PyObject *entity) {
 
 /* ---- group_method: beginning_execution and ending_execution ---- */
 
-/* third: the class that was wrapped, the name of its method, and who tells what is taken off. */
+/* third: the class that was wrapped, the name of its method, and what knows what is taken off. */
 static int is_reported_by(Wrapper *self, PyObject *group) {
     PyObject *type = (PyObject *)Py_TYPE(group);
     if (type == PyTuple_GET_ITEM(self->third, 0)) return 1;
@@ -425,7 +425,7 @@ static int is_taken_off(Wrapper *self) {
     return taken_off;
 }
 
-/* As groups.py says: a group is entered before its begin is told, and left after its end. */
+/* As groups.py says: a group is entered before its begin is reported, and left after its end. */
 static PyObject *call_group_method(PyObject *wrapper, PyObject *const *args, size_t flags,
                                    PyObject *names) {
     Wrapper *self = (Wrapper *)wrapper;
@@ -639,7 +639,7 @@ static PyObject *submit_function(PyObject *Py_UNUSED(module), PyObject *args) {
     return (PyObject *)self;
 }
 
-/* ---- run: Task.__call__, where there is nothing to tell but that it went on as it was ---- */
+/* ---- run: Task.__call__, where there is nothing to report but that it went on ---- */
 
 /* first: the class of records of work outside groups; second: the whole of it, in Python;
  * third: what to do when a run ends that has not come to its own end. */

@@ -189,13 +189,13 @@ def _fold_members(
 def _ordered_groups(
     members: list[EntityRecord], groups: list[GroupRecord]
 ) -> dict[tuple[Any, ...], int]:
-    """Tell the groups of a node apart by what they are and in which order a place makes them."""
+    """Number the groups of a node by what they are and in which order a place makes them."""
     used = {entity.group for entity in members}
     found: dict[tuple[Any, ...], int] = {}
     for group in groups:
         if group.number in used:
             signature = group.signature()
             order = sum(known[:-1] == signature for known in found)
-            told_apart = (*signature, order)
-            found[told_apart] = group.number
+            distinct = (*signature, order)
+            found[distinct] = group.number
     return found

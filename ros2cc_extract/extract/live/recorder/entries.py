@@ -28,7 +28,7 @@ _KINDS = {
     'ActionClient': 'action_client',
 }
 WAITABLE_KINDS = frozenset({'action_server', 'action_client', 'waitable'})
-# rclpy's modules whose entities nobody wrote, with the kind they are of.
+# rclpy's modules whose entities no user wrote, with their kinds.
 _BUILTIN_MODULES = {
     'parameter_service': 'parameter_service',
     'type_description_service': 'service',
@@ -36,7 +36,7 @@ _BUILTIN_MODULES = {
     'time_source': 'subscription',
     'lifecycle.node': 'lifecycle_service',
 }
-# rclpy's modules whose entities somebody asked for indirectly.
+# rclpy's modules whose entities the user asked for indirectly.
 _LIBRARY_MODULES = ('parameter_client', 'parameter_event_handler')
 
 
@@ -273,7 +273,7 @@ def thread_count(executor: Any) -> int | None:
     """
     Give the number of threads that run callbacks; ``None`` for classes we do not know.
 
-    ``MultiThreadedExecutor`` has no public way to tell (rclpy 3.3 to 9.1, ``executors.py``).
+    ``MultiThreadedExecutor`` has no public attribute for it (rclpy 3.3 to 9.1, ``executors.py``).
     """
     workers = getattr(getattr(executor, '_executor', None), '_max_workers', None)
     if isinstance(workers, int):
@@ -321,7 +321,7 @@ def fill_entity(record: EntityRecord, entity: Any) -> None:
     if 'create_rate' in creation.functions:
         record.library = 'rclpy.create_rate'
     if record.function is not None and _is_of_rclpy(record.function):
-        # What rclpy does at QoS events is its own, whoever has made the publisher or subscription.
+        # What rclpy does at QoS events is its own, for every publisher and subscription.
         is_default = record.library is None or record.kind == 'qos_event'
         record.builtin = record.builtin or is_default
     if record.kind == 'qos_event' and not record.builtin:
@@ -330,7 +330,7 @@ def fill_entity(record: EntityRecord, entity: Any) -> None:
 
 
 def _judge_modules(record: EntityRecord, through: Sequence[str]) -> None:
-    """Tell by the innermost module that makes entities of its own who has asked for this one."""
+    """Find the maker of an entity: the innermost module that makes entities of its own."""
     for module in through:
         if module in _BUILTIN_MODULES:
             record.builtin = True

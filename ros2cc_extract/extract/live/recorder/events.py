@@ -51,13 +51,13 @@ def unpack(events: bytes) -> Iterator[Fields]:
 
 
 def thread_name(thread: int, name: str) -> bytes:
-    """Tell the raw trace what a thread is called."""
+    """Return a record of the raw trace: what a thread is called."""
     text = name.encode('utf-8', 'replace')
     return pack(0, thread, THREAD_NAME, len(text)) + text
 
 
 def loss() -> bytes:
-    """Tell the raw trace that the oldest events are gone."""
+    """Return a record of the raw trace: the oldest events are gone."""
     return pack(0, 0, LOST, 0)
 
 

@@ -102,7 +102,7 @@ def _pass_rclpy(creation: Creation, frame: FrameType, module: str) -> None:
 
 
 def _read_arguments(creation: Creation, module: str, arguments: Mapping[str, Any]) -> None:
-    """Keep what an entity of rclpy is told and does not keep, or not yet."""
+    """Keep the arguments that an entity of rclpy does not keep itself, or not yet."""
     if module.startswith('action.'):
         creation.action_name = arguments.get('action_name') or creation.action_name
         creation.execute_callback = arguments.get('execute_callback')
@@ -111,7 +111,7 @@ def _read_arguments(creation: Creation, module: str, arguments: Mapping[str, Any
 
 
 def is_node(value: Any) -> bool:
-    """Whether ``value`` is an rclpy node, told without importing rclpy."""
+    """Return whether ``value`` is an rclpy node, without importing rclpy."""
     return hasattr(type(value), 'default_callback_group')
 
 

@@ -28,7 +28,7 @@ def type_of(entity: Any) -> str | None:
 
 
 def qos_of(entity: Any) -> dict[str, Any] | None:
-    """The policies that decide who is connected; times in seconds, ``None`` where none is set."""
+    """The policies that decide which endpoints connect; times in seconds, ``None`` if not set."""
     profile = getattr(entity, 'qos_profile', None)
     if profile is None:
         return None

@@ -4,7 +4,7 @@ The steps of executors that have happened and that the hook's thread has not tak
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours. ``native`` is the same in C (``native/journal.c``) with the wrappers that stand on the
 way of every callback, where it was built for this interpreter: a step costs a third there, and a
-message of a traced program is not told late. ``ROS2CC_LIVE_NATIVE=0`` does without it.
+message of a traced program is not reported late. ``ROS2CC_LIVE_NATIVE=0`` does without it.
 """
 
 from __future__ import annotations

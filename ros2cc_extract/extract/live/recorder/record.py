@@ -105,7 +105,7 @@ class Recorder:
             node = self._node_behind(node)
             home, record = self.note_executor(executor), self.note_node(node)
             if home.threads is None:
-                # Its constructor has ended; it may be gone before anybody looks again.
+                # Its constructor has ended; it may be gone before the next look.
                 home.threads = thread_count(executor)
             if record.enter(home.number):
                 for group in self._groups_of(node):
@@ -265,9 +265,9 @@ class Recorder:
         """Give the begins of the runs that have not ended, but for those in ``before``."""
         with self.lock:
             begun = [(number, each.begun) for number, each in self._timings.items()]
-        told = {fields for fields in unpack(before) if fields[2] == BEGIN}
+        reported = {fields for fields in unpack(before) if fields[2] == BEGIN}
         rows = ((at, thread, BEGIN, number) for number, runs in begun for at, thread in runs)
-        return [row for row in sorted(rows) if row not in told]
+        return [row for row in sorted(rows) if row not in reported]
 
     def _join(self, record: EntityRecord, group: Any, node: Any) -> None:
         owner = self.note_node(node)

@@ -2,7 +2,7 @@
 Which thread spins an executor, and by which function: read from the stacks of all threads.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
-neighbours. Looking at stacks from another thread disturbs nobody.
+neighbours. Looking at stacks from another thread disturbs nothing.
 """
 
 from __future__ import annotations

@@ -74,7 +74,7 @@ def home_of(node: RecordedNode) -> int | None:
     Choose the executor that a node belongs to: of those that ran it the one it was in longest.
 
     ``rclpy.spin`` takes a node out again when it ends, and a nested spin takes it out of its own
-    executor for good, so where it was at the end does not tell.
+    executor for good, so its place at the end proves nothing.
     """
     served = [stay for stay in node.stays if stay.waited] or list(node.stays[-1:])
     if not served:

@@ -16,7 +16,7 @@ from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.spec.yaml.yaml_io import write_specs
 
-# Some seconds of writing, which somebody at a terminal is told of.
+# Some seconds of writing, of which a user at a terminal is informed.
 MANY_EVENTS = 100_000
 
 

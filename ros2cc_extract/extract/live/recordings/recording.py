@@ -165,7 +165,7 @@ def read_recording(path: Path, shown_from: Path) -> Recording:
     Read one file.
 
     :param shown_from: places below this folder are shown relative to it.
-    :raises InputError: when the file cannot be read or is none of ours.
+    :raises InputError: if the file cannot be read or is not a recording.
     """
     try:
         data = read_json(read_named(path, MOST_BYTES))

@@ -3,7 +3,7 @@ Draws traces for ui.perfetto.dev and chrome://tracing: the JSON of the trace eve
 
 One track for each thread, and one for each callback group; where runs of a group lie side by
 side, one for each at a time, because slices of one track must not overlap. What had not ended
-when the trace stopped is drawn without an end. Perfetto (``json_trace_utils.cc``) puts whatever is
+when the trace stopped is drawn without an end. Perfetto (``json_trace_utils.cc``) puts all that is
 below a number that is negative or has more than 32 bits into one track, so threads and groups are
 numbered anew. Written event by event, in memory for one.
 """
@@ -149,7 +149,7 @@ class _Stretches:
                 yield begin, lane, event
 
     def _take_lane(self, track: int) -> int:
-        """The first that nobody is in."""
+        """The first that is free."""
         if self._free[track]:
             return heappop(self._free[track])
         self._lanes[track] += 1

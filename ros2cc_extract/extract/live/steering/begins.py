@@ -28,7 +28,7 @@ _PAUSE_S = 0.002
 
 
 class Guard(Protocol):
-    """Who decides which callbacks begin, and is told of it."""
+    """Decides which callbacks begin, and is called when they do."""
 
     def may_begin(self, entity: Any) -> bool:
         """Whether a callback may begin now; it is asked again if not."""
@@ -87,7 +87,7 @@ def _steer(group: Any, guard: Guard) -> list[tuple[Any, str, Any]]:
 
 def steer_takes(executor: Any, taken: Callable[[Any], None]) -> None:
     """
-    Tell which entities a spin takes, in the thread that spins.
+    Note which entities a spin takes, in the thread that spins.
 
     :param executor: ``rclpy.executors.Executor``; `_make_handler(self, entity, …)`, 3.3 to 9.1.
     """

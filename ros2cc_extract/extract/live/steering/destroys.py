@@ -1,5 +1,5 @@
 """
-Holds who destroys an entity until it is in use: a spin reads it, or a call waits for its answer.
+Hold the destruction of an entity until it is in use: a spin reads it, or a call waits for it.
 
 A thread may stand still at each of these places by itself; only how long it does is forced. In
 ``executors.py`` (rclpy 3.3 to 9.1, `_wait_for_ready_callbacks`) a spin reads `handle`, a property,

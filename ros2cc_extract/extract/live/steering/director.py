@@ -1,5 +1,5 @@
 """
-Decides who may go on: what ends a wait is held back until every wait has begun.
+Decide which threads go on: what ends a wait is held back until every wait has begun.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours.
@@ -54,7 +54,7 @@ class Director:
         return self.is_open or not held or (self._is_late() and all(each.soft for each in held))
 
     def _is_ready(self) -> bool:
-        """Whether what the node meets is there; only from then on is anybody given up."""
+        """Whether what the node meets is there; only then may threads be given up."""
         if self._surroundings.ready_since is None and self._surroundings.are_ready():
             self._give_up_at = max(self._give_up_at, time.monotonic() + _FIRST_S)
         return self._surroundings.ready_since is not None

@@ -1,5 +1,5 @@
 """
-Tells which exceptions end a callback, a thread or the program.
+Report the exceptions that end a callback, a thread or the program.
 
 Runs inside the user's process: the standard library only, nothing else of ours but its
 neighbours.
@@ -14,30 +14,30 @@ import traceback
 from collections.abc import Callable
 from typing import Any
 
-Tell = Callable[[dict[str, Any]], None]
+Report = Callable[[dict[str, Any]], None]
 _MOST_FRAMES = 40
 
 
 class Failures:
     """
-    :param tell: called with the type, the text and the frames of each exception.
+    :param report: called with the type, the text and the frames of each exception.
     """
 
-    def __init__(self, tell: Tell) -> None:
-        self._tell = tell
+    def __init__(self, report: Report) -> None:
+        self._report = report
         self._undo: list[Callable[[], None]] = []
 
     def watch_threads(self) -> None:
-        """Tell what ends the program, or a thread of it."""
+        """Report what ends the program, or a thread of it."""
         of_program, of_threads = sys.excepthook, threading.excepthook
 
         def uncaught(kind: Any, error: Any, trace: Any) -> None:
-            self._tell(row_of(error))
+            self._report(row_of(error))
             of_program(kind, error, trace)
 
         def uncaught_in_thread(arguments: Any) -> None:
             if arguments.exc_value is not None:
-                self._tell(row_of(arguments.exc_value))
+                self._report(row_of(arguments.exc_value))
             of_threads(arguments)
 
         sys.excepthook, threading.excepthook = uncaught, uncaught_in_thread
@@ -56,7 +56,7 @@ class Failures:
         original = future.set_exception
 
         def set_exception(this: Any, error: Any) -> Any:
-            self._tell(row_of(error))
+            self._report(row_of(error))
             return original(this, error)
 
         future.set_exception = set_exception

@@ -1,5 +1,5 @@
 """
-Has Python tell of each instruction of a call, in every version that does.
+Have Python report each instruction of a call, in every version that can.
 
 Source: Python, ``sys.settrace``; ``Objects/frameobject.c`` and ``Python/legacy_tracing.c`` of 3.12
 and 3.13.
@@ -28,7 +28,7 @@ def has_global_lock() -> bool:
 
 
 def allow_instructions() -> None:
-    """Before ``sys.settrace``: Python 3.12 asks only there whether anybody wants instructions."""
+    """Before ``sys.settrace``: Python 3.12 asks only there whether a tracer wants instructions."""
     sys._getframe().f_trace_opcodes = True
 
 

@@ -1,5 +1,5 @@
 """
-Tells when a thread comes to a point of the plan, passes it, or raises there.
+Report when a thread comes to a point of the plan, passes it, or raises there.
 
 Only code that holds such a point is traced by line; of all other code each call costs one look
 into a table. Source: Python, `sys.settrace`; the place of an instruction: PEP 657.
@@ -143,7 +143,7 @@ def _is_at(frame: FrameType, event: str, point: Point) -> bool:
         return False
     positions = getattr(frame.f_code, 'co_positions', None)
     if positions is None:
-        return True  # Python 3.10 does not tell
+        return True  # Python 3.10 has no positions
     for number, (line, _, column, _) in enumerate(positions()):
         if number == frame.f_lasti // 2:
             return line == point.first and column is not None and column + 1 == point.column

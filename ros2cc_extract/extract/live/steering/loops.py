@@ -1,5 +1,5 @@
 """
-Loops of asyncio that sleep although something is ready: nobody has woken them.
+Loops of asyncio that sleep although something is ready: nothing has woken them.
 
 A loop that has something ready does not sleep, and what is handed over by
 `call_soon_threadsafe` wakes it. Source: Python 3.10 to 3.14, ``asyncio/base_events.py``

@@ -23,7 +23,7 @@ class Point:
     :param first, last: its lines; of a loop with its body.
     :param column: 1-based, where the line holds more than one such place; else 0.
     :param count: how many threads are to stand there.
-    :param holds: who arrives is held until all have arrived.
+    :param holds: what arrives is held until all have arrived.
     :param pause_s: how long the first to arrive is held in any case.
     """
 
@@ -95,7 +95,7 @@ class Plan:
     :param held: not to begin before.
     :param surroundings: a file that is there once what the node meets outside is.
     :param race: two writes of one attribute to be forced, see ``races.py``.
-    :param destroys: what whoever destroys an entity at the first point waits for: ``destroys.py``.
+    :param destroys: what the destroyer of an entity at the first point waits for: ``destroys.py``.
     :param patience_s: how long after the first arrival the rest is waited for.
     """
 
@@ -113,7 +113,7 @@ def read_plan(path: str) -> Plan:
     """
     Read a plan.
 
-    :raises OSError, ValueError, KeyError: where it is none.
+    :raises OSError, ValueError, KeyError: if it is invalid.
     """
     with open(path, encoding='utf-8') as stream:  # noqa: PTH123
         return Plan(json.load(stream))

@@ -1,5 +1,5 @@
 """
-Forces two accesses of one attribute: who has read is held before the write, or before the next
+Force two accesses of one attribute: a reader is held before the write, or before the next
 read, until another thread has written.
 
 Only the functions that hold these writes are traced, instruction by instruction. Source: Python,
@@ -44,7 +44,7 @@ class Write:
 
 class Race:
     """
-    One attribute, who is held, and who writes meanwhile.
+    One attribute, the held thread, and the one that writes meanwhile.
 
     :param row: `attribute`, `own`: the write that is held; `others`: writes of other threads,
         which may be the same statement; `is_use`: what is held is a read of what was tested, until
@@ -113,7 +113,7 @@ class Race:
         """
         Hold this thread until another one has written.
 
-        :return: what that one wrote, in a tuple; an empty one if nobody did in time; `None` if
+        :return: what that one wrote, in a tuple; an empty one if none did in time; `None` if
             this thread was not held.
         """
         with self._changed:
@@ -131,7 +131,7 @@ class Race:
         return self._forced_times <= _MOST_FORCED
 
     def wrote(self, owner: Any) -> None:
-        """Another thread has written: let go who is held."""
+        """Let the held thread go on: another one has written."""
         with self._changed:
             is_other = self._held not in (None, threading.get_ident())
             if is_other and owner is self._object and self._other is NOTHING:
@@ -140,7 +140,9 @@ class Race:
                     self._other = written
                     self._changed.notify_all()
 
-    def tell(self, read: Any, other: Any, own: Any, *, line: int = 0, let_in: bool = True) -> None:
+    def write_row(
+        self, read: Any, other: Any, own: Any, *, line: int = 0, let_in: bool = True
+    ) -> None:
         """:param let_in: since the read, Python by itself may have let another thread in."""
         if other is NOTHING:
             self._report.write('alone')
@@ -190,7 +192,7 @@ class _Call:
             mark = self._marks.get(frame.f_lasti)
             if mark == _USE and self._was_there and self._let_in:
                 self._hold(frame)
-                self._tell_use(frame)
+                self._report_use(frame)
             elif mark == _WRITE and not self._race.is_use and self._is_worth_holding(frame):
                 self._hold(frame)
         return self.trace
@@ -207,7 +209,7 @@ class _Call:
             if self._forced is not None:
                 other, self._forced = self._forced[0], None
                 own = value(target(frame), self._race.attribute)
-                self._race.tell(self._read, other, own, line=self._line, let_in=self._let_in)
+                self._race.write_row(self._read, other, own, line=self._line, let_in=self._let_in)
             elif self._race.is_own(frame, self._line) or self._race.is_other(frame, self._line):
                 self._race.wrote(target(frame))
 
@@ -215,11 +217,11 @@ class _Call:
     def _was_there(self) -> bool:
         return self._read is not NOTHING and self._read is not None
 
-    def _tell_use(self, frame: FrameType) -> None:
+    def _report_use(self, frame: FrameType) -> None:
         """Before it is used: that it is gone shows in the exception."""
         if self._forced is not None:
             other, self._forced = self._forced[0], None
-            self._race.tell(self._read, other, NOTHING, line=frame.f_lineno)
+            self._race.write_row(self._read, other, NOTHING, line=frame.f_lineno)
 
     def _is_worth_holding(self, frame: FrameType) -> bool:
         """The other side too, where it has read before and another thread may have come in."""
@@ -232,7 +234,7 @@ class _Call:
         forced = self._race.hold(target(frame))
         self._forced = forced or None
         if forced == ():
-            self._race.tell(self._read, NOTHING, NOTHING)
+            self._race.write_row(self._read, NOTHING, NOTHING)
 
 
 def _is_in(frame: FrameType, line: int, write: Write) -> bool:

@@ -66,7 +66,7 @@ class Steering:
         while True:
             time.sleep(LOOKS_EVERY_S)
             if os.getppid() != self._parent:
-                # Whoever watches has been killed: nobody else would end this process.
+                # The watching process was killed: nothing else would end this one.
                 os.kill(os.getpid(), signal.SIGKILL)
             self._director.look_at_the_clock()
             if 'asyncio' in sys.modules:

@@ -3,7 +3,7 @@ Gives a node from outside what it waits for.
 
 As ``python stimulus.py READY VALUES AT_ONCE DEFAULTS FILLED``. Publishes on every topic that a
 node of the domain subscribes to, calls every service, sends goals to every action server, and
-offers what the clients of the domain ask for and nobody offers. All messages are filled by default
+offers what the clients of the domain ask for without a server. All messages are filled by default
 at first, later with VALUES, a JSON list of texts and numbers that the program compares with;
 without DEFAULTS (0) always with these, without FILLED never. Of each service, AT_ONCE requests are
 on their way at a time. The file READY is made once all that was seen at first is offered.
@@ -24,7 +24,7 @@ from typing import Any
 
 NODE = '_ros2cc_stimulus'
 ROUND_S = 0.1
-# What somebody else may offer a moment later is not offered in his place.
+# What another node may offer a moment later is not offered instead.
 GRACE_S = 0.7
 # For the other side to find what is offered.
 SETTLES_S = 0.5
@@ -70,7 +70,7 @@ class Stimulus:
         self._actions: dict[str, Any] = {}
 
     def run(self) -> None:
-        """Go on until killed, or until whoever has started it is gone."""
+        """Go on until killed, or until the process that started it is gone."""
         executor = importlib.import_module('rclpy.executors').SingleThreadedExecutor()
         executor.add_node(self._node)
         parent = os.getppid()
@@ -87,12 +87,12 @@ class Stimulus:
                     with contextlib.suppress(Exception):
                         act(name, namespace)
             self._turn += 1
-            self._tell_when_ready()
+            self._report_when_ready()
             until = time.monotonic() + ROUND_S
             while time.monotonic() < until:
                 executor.spin_once(timeout_sec=0.02)
 
-    def _tell_when_ready(self) -> None:
+    def _report_when_ready(self) -> None:
         if self._ready is not None and any(self._others()):
             self._first = self._first or time.monotonic()
             if time.monotonic() - self._first > GRACE_S + SETTLES_S:
@@ -264,7 +264,7 @@ class Stimulus:
 
 
 def _usable(quality: Any) -> Any:
-    """The graph does not tell how deep a queue is."""
+    """Return the quality with a queue depth, which the graph does not give."""
     if hasattr(quality, 'depth'):
         policy = importlib.import_module('rclpy.qos').HistoryPolicy
         quality.history, quality.depth = policy.KEEP_LAST, 10

@@ -1,5 +1,5 @@
 """
-Whether what a node meets outside is there; what it asks of nobody is lost for good.
+Whether what a node meets outside is there; a request without a server is lost for good.
 
 Runs inside the user's process: the standard library only.
 """
@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import time
 
-# For somebody who calls all services and offers all that is asked for.
+# For a stimulus that calls all services and offers all that is asked for.
 PATIENCE_S = 8.0
 
 

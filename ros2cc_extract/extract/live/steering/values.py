@@ -15,7 +15,7 @@ _LONGEST = 120
 
 
 def target(frame: FrameType) -> Any:
-    """Whose attribute it is: of the first argument."""
+    """Return the object that has the attribute: the first argument."""
     names = frame.f_code.co_varnames
     return frame.f_locals.get(names[0], NOTHING) if names else NOTHING
 

@@ -34,7 +34,7 @@ from ros2cc_extract.spec.model import ActivityKind, When
 def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None:
     """Follow what another thread sets up; it holds no lock of ours and is no callback."""
     world = machine.world
-    if world.retelling:
+    if world.second_pass:
         return
     saved = (world.in_thread, world.effects, world.held, world.after_spin, world.count)
     path, chain, thread = world.path, world.chain, world.thread
@@ -109,11 +109,11 @@ def begin(
 
 def _note_again(world: ConcurrentWorld, known: ActivityState) -> None:
     """
-    It starts itself anew; what leads there from its own function is told.
+    Note that it starts itself anew, and what leads there from its own function.
 
     Only where it is followed beside the callbacks are tests open on what others change.
     """
-    is_sure = world.retelling and known is world.activity and world.path == known.path
+    is_sure = world.second_pass and known is world.activity and world.path == known.path
     if is_sure and known.again is None:
         known.again = world.chain[1] if len(world.chain) > 1 else known.place
 
@@ -196,21 +196,21 @@ def _text_of(target: Value) -> object:
 
 def followed(world: ConcurrentWorld) -> Iterator[ActivityState]:
     """Those that have not been followed for what they do."""
-    while world.told < len(world.activities):
-        state = world.activities[world.told]
-        world.told += 1
+    while world.followed_count < len(world.activities):
+        state = world.activities[world.followed_count]
+        world.followed_count += 1
         if state.kind is not ActivityKind.MAIN and not state.is_executor:
             yield state
 
 
-def begin_telling(world: ConcurrentWorld, state: ActivityState) -> None:
+def begin_second_pass(world: ConcurrentWorld, state: ActivityState) -> None:
     """What is followed from here on is what ``state`` does."""
     starters = [start.by for start in state.starts]
     world.activity, world.effects = state, state.effects
     world.current = next((by for by in starters if by is not None and not is_activity(by)), None)  # type: ignore[assignment]
     world.when, world.count = When.CALLBACK, 1
     world.path = world.callback_path = state.path
-    world.again = world.retelling = True
+    world.again = world.second_pass = True
     world.after_spin = False
     world.asked, world.ready = set(), frozenset()
 

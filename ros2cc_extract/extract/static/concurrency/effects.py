@@ -102,7 +102,7 @@ class Effects(Waits):
                 looked.outside.append(found.unknown)
 
     def _seen_at(self, home: collection_aliases.Home) -> str:
-        """Who touches a collection touches what held it first."""
+        """Note the first holder of a collection: code that touches one touches the other."""
         owner, shown = home
         if self.world.activity is not None:
             touch(self.world.activity, owner)
@@ -120,7 +120,7 @@ class Effects(Waits):
             torn_updates.note_held(self.world, owner, name, value, shown)
 
     def _note_other_write(self, owner: Value, name: str, place: Place) -> None:
-        """Code that nobody in sight calls, or that runs after the spin, writes an attribute."""
+        """Code without a known caller, or that runs after the spin, writes an attribute."""
         world = self.world
         cls = owner.cls if isinstance(owner, Instance) else owner
         is_late = world.when is When.LATER or world.after_spin
@@ -282,7 +282,7 @@ class Effects(Waits):
                 name = self.lock_name(option, option.state.kind)
                 if name in self.world.held and option.state.kind in _RE_ENTRANT:
                     self.world.held = (*self.world.held, name)
-                    continue  # its holder takes it once more and waits for nobody
+                    continue  # its holder takes it once more and does not wait
                 act = Act(
                     name=name,
                     source=place,
@@ -381,7 +381,7 @@ def _holds_lock(owner: Instance) -> bool:
 
 
 def _is_assigned(cls: Value, name: str) -> bool:
-    """Whether a method assigns the attribute that nobody has made yet."""
+    """Whether a method assigns the attribute that was not made yet."""
     return any(
         name in reassigned_attributes(base.node)
         for base in getattr(cls, 'mro', ())

@@ -1,5 +1,5 @@
 """
-What the interpreter tells of, handed to whom it concerns: the door of what runs concurrently.
+What the interpreter reports, handed to the code it concerns: the entry to concurrency.
 
 The interpreter calls these hooks, see ``observer.py``; each module behind them knows one matter.
 """
@@ -27,7 +27,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops import (
 from ros2cc_extract.extract.static.program.text_queries import is_recursion
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.path_facts import Told
+from ros2cc_extract.extract.static.python.machine.path_facts import Implied
 from ros2cc_extract.extract.static.python.objects.escape import reached
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.source_locations import Place, Unknown
@@ -54,7 +54,7 @@ class Notes(Effects):
     def note_branch(
         self, node: ast.If, found: Set[str], place: Place, frame: Frame, *, is_first: bool
     ) -> None:
-        """A test may find a flag down, or ask for what somebody notifies of."""
+        """A test may find a flag down, or ask for what other code notifies of."""
         reading = self.world.reading
         if is_first:
             flag_locks.note_test(
@@ -69,7 +69,7 @@ class Notes(Effects):
         lost_notifications.note_test(self.world, node.test, place, reading.tests[place])
 
     def asked_by_loop(self, node: ast.While, names: frozenset[str], place: Place) -> Asked:
-        """A loop may ask for what somebody notifies of."""
+        """A loop may ask for what other code notifies of."""
         return lost_notifications.note_test(self.world, node.test, place, names, repeats=True)
 
     def note_return(self, node: ast.Return, frame: Frame, found: Set[str]) -> None:
@@ -88,10 +88,10 @@ class Notes(Effects):
         """A handler that gives locks back runs while they are held."""
         return locks_given_back(body, self.world)
 
-    def begin_loop(self, node: ast.While, frame: Frame, told: Told | None) -> object:
+    def begin_loop(self, node: ast.While, frame: Frame, implied: Implied | None) -> object:
         """A loop may do nothing but wait."""
         before = polling_loops.mark(self)
-        polling_loops.begin(self, node, frame, told)
+        polling_loops.begin(self, node, frame, implied)
         return before
 
     def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:
@@ -105,7 +105,7 @@ class Notes(Effects):
             polling_loops.mark_recursive(self, node, frame, begun)
 
     def note_results(self, value: Value, place: Place) -> None:
-        """Whoever goes over what ``Executor.map`` gives waits for it."""
+        """Note a wait: a loop over what ``Executor.map`` returns waits for it."""
         if isinstance(value, Instance) and value.hint == 'map' and value.state is not None:
             self.note_blocking('Executor.map', value, None, place)
 
@@ -117,6 +117,6 @@ class Notes(Effects):
         """
         for thing in reached(value):
             known = self.world.given.get(id(thing))
-            # What a queue does with it may be seen in the end; nobody sees what others do.
+            # What a queue does with it may be seen in the end; what others do is not seen.
             if known is None or (known.reason != reason and 'queue' in known.reason):
                 self.world.given[id(thing)] = Unknown(reason, place)

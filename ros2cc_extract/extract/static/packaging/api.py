@@ -34,7 +34,7 @@ def declarations(
     return found
 
 
-def told(unread: Iterable[Unknown]) -> tuple[Diagnostic, ...]:
+def notes_of(unread: Iterable[Unknown]) -> tuple[Diagnostic, ...]:
     """What could not be read, as notes at its places."""
     return tuple(
         Diagnostic(

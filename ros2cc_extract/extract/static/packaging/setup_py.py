@@ -77,7 +77,7 @@ def of_setup_py(text: str, shown: str) -> Declarations:
     if why_cut is not None:
         found.append(Unknown(why_cut, Place(shown)))
     elif not calls:
-        found.append(Unknown('no call of setup is in sight', Place(shown)))
+        found.append(Unknown('no call of setup is found', Place(shown)))
     return declared(list(dict.fromkeys(found)))
 
 

@@ -1,4 +1,4 @@
-"""Callers before what they call, read off the text: nobody is without a caller by mistake."""
+"""Callers before what they call, read off the text: no function lacks a caller by mistake."""
 
 from __future__ import annotations
 

@@ -101,7 +101,7 @@ def _runs(node: ast.stmt) -> bool:
 
 
 def _runs_loop(value: ast.expr) -> bool:
-    """``asyncio.run(…)`` of whatever."""
+    """Whether it is a call of ``asyncio.run(…)``."""
     function = value.func if isinstance(value, ast.Call) else None
     is_run = isinstance(function, ast.Attribute) and function.attr == 'run'
     owner = function.value if is_run and isinstance(function, ast.Attribute) else None

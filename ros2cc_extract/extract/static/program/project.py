@@ -164,7 +164,7 @@ class Project:
         return None
 
     def followed(self) -> list[FollowedFile]:
-        """The files that nobody gave, as they were read."""
+        """The files that were not given, as they were read."""
         given = {id(source) for source in self.given}
         return [
             (str(source.path), source.digest)
@@ -175,7 +175,7 @@ class Project:
     def _add_path(self, path: Path) -> None:
         if self.disk.is_folder(path):
             barred = len(self.barred)
-            found = sorted(python_files(self.disk, path, self._tell_barred))
+            found = sorted(python_files(self.disk, path, self._report_barred))
             if not found and len(self.barred) == barred:
                 raise InputError('no Python file in this directory', Place(str(path)))
             self.given.extend(self._add_file(file) for file in found)
@@ -202,7 +202,7 @@ class Project:
         self._by_shown[source.shown] = source
         return source
 
-    def _tell_barred(self, error: OSError) -> None:
+    def _report_barred(self, error: OSError) -> None:
         path = Path(os.fsdecode(error.filename))
         shown = self._shown(path, Path(os.path.abspath(path)))  # noqa: PTH100
         self.barred.append(unreadable_folder(error, shown))
@@ -247,7 +247,7 @@ def _package_of(files: Files, folder: Path) -> str:
 
 
 def python_files(files: Files, folder: Path, on_error: OnError) -> Iterator[Path]:
-    """The Python files that are scanned when somebody names ``folder``."""
+    """The Python files that are scanned if ``folder`` is given."""
     for base, folders, names in files.walk(folder, on_error):
         folders[:] = sorted(f for f in folders if f not in _SKIPPED and not f.startswith('.'))
         for name in names:

@@ -77,7 +77,7 @@ _OF_PROCESSES = frozenset(['run', 'check_call', 'check_output'])
 
 
 def waits_for_others(node: ast.AST) -> bool:
-    """Whether ``node`` calls something by the name of a wait for somebody else."""
+    """Whether ``node`` calls something by the name of a wait for other code."""
     return noted_on(node, 'waits_for_others', _waits_for_others)
 
 

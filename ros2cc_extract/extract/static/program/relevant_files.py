@@ -62,7 +62,7 @@ def _last(source: SourceFile) -> str:
 def _leads_there(
     project: Project, source: SourceFile, name: str, names: set[str], found: set[str]
 ) -> bool:
-    """Whether ``name`` is one of the files in ``found``; most are told apart without the disk."""
+    """Whether ``name`` is one of the files in ``found``; most are decided without the disk."""
     if name.rpartition('.')[2] not in names:
         return False
     module = project.module(name, source.shown)

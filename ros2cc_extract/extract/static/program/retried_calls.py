@@ -1,9 +1,9 @@
 """
-Calls that a loop repeats until they succeed, whatever time-out each of them has.
+Calls that a loop repeats until they succeed, with or without a time-out of each.
 
 ``while not client.wait_for_service(timeout_sec=1.0): log()``, or the answer is kept in a name that
 the loop asks, or an ``if`` inside of an endless loop leaves it. A loop that something else may
-leave is none.
+leave does not count.
 """
 
 from __future__ import annotations

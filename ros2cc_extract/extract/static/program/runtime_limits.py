@@ -14,7 +14,7 @@ _MUCH = 1_000_000
 
 
 class _Aged:
-    """What scans have left behind since somebody last looked for cycles among all of it."""
+    """What scans have left behind since the last look for cycles among all of it."""
 
     objects = 0
 
@@ -51,7 +51,7 @@ def forget_programs() -> None:
 
 
 def _forget_earlier_scans() -> None:
-    """Nobody else looks at what was made old, however much it is."""
+    """Nothing else looks at what was made old, even if it is much."""
     if _Aged.objects > _MUCH:
         gc.collect()
         _Aged.objects = 0

@@ -42,13 +42,13 @@ class ScanCache:
 def _key(project: Project) -> str:
     digest = hashlib.sha256(tool_version().encode())
     for source in project.given:
-        asked = source.named  # one that was named is read whatever it holds
+        asked = source.named  # one that was named is always read
         digest.update(_bytes(f'{source.shown}\0{source.path}\0{source.digest}\0{asked}\n'))
     for path, data in script_files(project.disk, project.script_folders()):
         digest.update(_bytes(f'{path}\0{digest_of(data)}\n'))
     digest.update(_bytes(project.parameters.key))
-    for told in project.barred:
-        digest.update(_bytes(f'{told.place} {told.message}\n'))
+    for barred in project.barred:
+        digest.update(_bytes(f'{barred.place} {barred.message}\n'))
     return digest.hexdigest()
 
 

@@ -36,7 +36,7 @@ class SourceFile:
     :param shown: path as shown to the user.
     :param module_name: dotted name by which the program imports it.
     :param package: dotted name of the package it is in, empty outside packages.
-    :param named: the user named this very file; its trouble is told whatever it holds.
+    :param named: the user named this very file; its errors are always reported.
     :param files: where it is read from.
     """
 
@@ -71,7 +71,7 @@ class SourceFile:
 
     @property
     def digest(self) -> str:
-        """Tells contents apart."""
+        """Return a digest that distinguishes contents."""
         return digest_of(self.data)
 
     @property
@@ -86,7 +86,7 @@ class SourceFile:
 
     @cached_property
     def tree(self) -> ast.Module | None:
-        """The syntax tree, ``None`` when there is none to be had."""
+        """The syntax tree, ``None`` if the text has none."""
         text = self._text()
         if text is None:
             return None

@@ -42,16 +42,16 @@ def changed_globals(tree: ast.Module) -> frozenset[str]:
     )
 
 
-Told = TypeVar('Told')
+Noted = TypeVar('Noted')
 Node = TypeVar('Node', bound=ast.AST)
 
 
-def noted_on(node: Node, key: str, tell: Callable[[Node], Told]) -> Told:
-    """What ``tell`` says of ``node``, kept on the node itself, so that it goes with the tree."""
+def noted_on(node: Node, key: str, find: Callable[[Node], Noted]) -> Noted:
+    """What ``find`` says of ``node``, kept on the node itself, so that it goes with the tree."""
     notes = node.__dict__
     if key not in notes:
-        notes[key] = tell(node)
-    known: Told = notes[key]
+        notes[key] = find(node)
+    known: Noted = notes[key]
     return known
 
 
@@ -82,7 +82,7 @@ def walk(node: ast.AST) -> Iterator[ast.AST]:
     """
     Every node below ``node``, in no particular order; some four times as fast as ``ast.walk``.
 
-    Contexts and operators are left out: nobody asks for them.
+    Contexts and operators are left out: they are never asked for.
     """
     waiting = [node]
     fields = _FIELDS

@@ -1,7 +1,7 @@
 """
 Packages of one repository that know of each other by their ``package.xml``.
 
-Read as text: a manifest of somebody else is data that may be broken or hostile.
+Read as text: a foreign manifest is data that may be broken or hostile.
 """
 
 from __future__ import annotations

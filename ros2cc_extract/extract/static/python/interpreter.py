@@ -2,7 +2,7 @@
 The abstract interpreter of Python, put together: it follows a program and never runs it.
 
 It knows the language and its built-in types. What a library does stands in a table of it, see
-``library_table.py``; whoever wants to know more of what is followed than its state overrides the
+``library_table.py``. Code that needs more than the state of what is followed overrides the
 hooks of ``observer.py``.
 """
 

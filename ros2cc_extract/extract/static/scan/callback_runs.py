@@ -62,7 +62,7 @@ class _TooEarly:
     lacking: tuple[tuple[Heaped, str | None], ...]
 
     def may_go_on(self) -> bool:
-        """True when it met ``None``, or lacked what somebody has set or put in since."""
+        """True when it met ``None``, or lacked what was set or put in since."""
         return self.met_none or any(_is_there(owner, name) for owner, name in self.lacking)
 
 
@@ -93,10 +93,10 @@ def _run_all_callbacks(machine: RosInterpreter) -> None:
             _run_again(machine, entity)
         _run_new_callbacks(machine)
     for state in activities.followed(machine.world):
-        _tell(machine, state)
+        _follow(machine, state)
         _run_new_callbacks(machine)
     for state in machine.world.signal_handlers:
-        _tell(machine, state)
+        _follow(machine, state)
         signal_handlers.note_followed(machine.world, state)
 
 
@@ -135,11 +135,11 @@ def _run_new_entities(machine: RosInterpreter) -> None:
                 _run_again(machine, entity)
 
 
-def _tell(machine: RosInterpreter, state: ActivityState) -> None:
+def _follow(machine: RosInterpreter, state: ActivityState) -> None:
     """Follow what a thread does beside the callbacks."""
 
     def follow() -> None:
-        activities.begin_telling(machine.world, state)
+        activities.begin_second_pass(machine.world, state)
         mark = machine.store.open_branch()
         call = state.call or Call(state.place)
         for option in options_of(state.target) if state.target is not None else ():

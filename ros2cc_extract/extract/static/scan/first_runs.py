@@ -1,9 +1,9 @@
 """
 What the first run of a callback does, where only another run of its own could end its wait.
 
-Whether a run waits or ends waits of others may depend on attributes that nobody but the callback
+Whether a run waits or ends waits of others may depend on attributes that only the callback
 itself changes. Its first run finds in them what the set-up has stored: if that run waits, and no
-other run of the callback can begin meanwhile, nobody ever ends the wait.
+other run of the callback can begin meanwhile, nothing ever ends the wait.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def _is_serial(entity: EntityState) -> bool:
 
 
 def _ends_by_itself(block: Blocking, entity: EntityState, machine: RosInterpreter) -> bool:
-    """Whether nobody but the callback that waits is seen to end the wait."""
+    """Whether only the callback that waits is seen to end the wait."""
     reference = block.resource
     if not isinstance(reference, ResourceRef) or not reference.is_kept or not block.conditional:
         return False

@@ -56,7 +56,7 @@ def guarded(
         world.stopped, world.effects, world.current, world.looking = False, None, None, ()
         world.shutting_down = False
         world.in_thread, world.when, world.thread = False, When.START, 0
-        world.activity, world.again, world.retelling = None, False, False
+        world.activity, world.again, world.second_pass = None, False, False
         world.limit = None
         machine.store.reset()
     if why:

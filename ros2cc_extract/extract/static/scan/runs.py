@@ -1,4 +1,4 @@
-"""Runs of the abstract machine: from an entry, over the callbacks, to what nobody calls."""
+"""Runs of the abstract machine: from an entry, over the callbacks, to what is never called."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ from ros2cc_extract.spec.model import When
 
 _DESTROYING = 'on_deactivate'
 UNCALLED = -3
-"""Step of a path that somebody who is not in sight takes."""
+"""Step of a path that an unknown caller takes."""
 
 
 def run_entry(project: Project, entry: Entry) -> RosInterpreter:
@@ -127,7 +127,7 @@ def _run_escaped_one(
 
 
 def run_rest_of_instances(machine: RosInterpreter) -> None:
-    """Methods that make entities and that nobody in sight calls; they may be called later."""
+    """Methods without a known caller that make entities; they may be called later."""
     seen = 0
     while seen < min(len(machine.world.instances), MOST_CALLBACKS):
         instance = machine.world.instances[seen]
@@ -171,10 +171,10 @@ class _Method:
 
 def _lacks_caller(world: RosWorld, method: _Method, instance: Instance) -> bool:
     """
-    Whether nobody in sight calls it.
+    Whether it has no known caller.
 
     It is followed for each object that the set-up makes, and once for others of its class; one
-    that only the class itself is to call once as well, whatever keeps the class from it.
+    that only the class itself calls is followed once as well, even if the class does not reach it.
     """
     number = id(method.text.node)
     is_of_set_up = all(step != UNCALLED for _, step in instance.path)

@@ -1,4 +1,4 @@
-"""Runs of what no entry reaches: node classes nobody makes, and functions given a node."""
+"""Runs of what no entry reaches: node classes without instances, and functions given a node."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def run_library(
         _use_without_caller(machine, value)
         run_callbacks(machine)
         run_rest_of_instances(machine)
-        if not machine.steps_left:  # and that was told
+        if not machine.steps_left:  # and that was reported
             break
     note_kept_locks(machine.world)
     return machine
@@ -105,7 +105,7 @@ def _inherits(value: Class | Function) -> bool:
 def _has_uncovered(
     project: Project, source: SourceFile, tree: ast.Module, covered: frozenset[Place]
 ) -> bool:
-    """Whether something that may make entities was not followed, by what the text tells."""
+    """Whether something that may make entities was not followed, by its text."""
     left = [
         node
         for node in tree.body
@@ -169,17 +169,17 @@ def _use_without_caller(machine: RosInterpreter, value: Class | Function) -> Non
         if is_test(value.name):
             end_test(machine)
         nodes, entities = len(machine.world.nodes), len(machine.world.entities)
-        told = len(machine.world.diagnostics)
+        since = len(machine.world.diagnostics)
         guarded(machine, lambda: machine.run_function(value, call), value.place)
         if isinstance(value.node, ast.AsyncFunctionDef):
-            forget_awaits(machine.world, told)
+            forget_awaits(machine.world, since)
         _mark_later(machine.world, nodes, entities, value.place)
         if is_test(value.name):
             end_test(machine)
 
 
 def _mark_later(world: RosWorld, nodes: int, entities: int, place: Place) -> None:
-    """What a function adds to a node that was there before is made when somebody calls it."""
+    """What a function adds to a node that was there before is made when it is called."""
     known = {id(node) for node in world.nodes[:nodes]}
     for entity in world.entities[entities:]:
         if id(entity.node) in known and entity.when is When.START:

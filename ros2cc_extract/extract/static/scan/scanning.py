@@ -2,7 +2,7 @@
 One scan: the programs from their entries, then what no entry reaches.
 
 Files are followed in pieces, in children where there are several cores. What a file gives
-does not depend on who follows it: the second round tells each what all others have covered,
+does not depend on which child follows it: in the second round each gets what the others covered,
 and follows a file again where one before it in the order of files has covered more since.
 """
 
@@ -18,7 +18,7 @@ from ros2cc_extract.deadline import Patience, TimeOverError, ended_by
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
-from ros2cc_extract.extract.static.packaging.api import declarations, told
+from ros2cc_extract.extract.static.packaging.api import declarations, notes_of
 from ros2cc_extract.extract.static.program.entry_points import entries_of
 from ros2cc_extract.extract.static.program.project import FollowedFile, Project
 from ros2cc_extract.extract.static.program.relevance import replaces_rclpy
@@ -88,7 +88,7 @@ class Found:
 
 @dataclass(frozen=True)
 class Read:
-    """What one process has read: trouble with files, and files nobody gave."""
+    """What one process has read: trouble with files, and files that were not given."""
 
     unread: tuple[Diagnostic, ...]
     followed: frozenset[FollowedFile]
@@ -106,7 +106,7 @@ def scan_project(
     project: Project, processes: int, progress: Progress | None, patience: Patience
 ) -> tuple[Extraction, frozenset[FollowedFile]]:
     """
-    Follow everything; also gives the files that were read though nobody gave them.
+    Follow everything; also returns files that were read but not given.
 
     :param processes: at most so many share the work.
     """
@@ -144,7 +144,7 @@ class _Worker:
         self._files = files
         installed = declarations(project.disk, project.script_folders(), project.shown)
         self._scripts = frozenset((each.module, each.function) for each in installed.scripts)
-        self.unread_programs = told(installed.unread)
+        self.unread_programs = notes_of(installed.unread)
 
     def answer(self, piece: Piece) -> Answer:
         """Follow a piece."""
@@ -177,8 +177,8 @@ class _Worker:
         except Exception as error:
             if os.environ.get('ROS2CC_TRACEBACK'):
                 raise
-            told = ' '.join(f'{type(error).__name__}: {error}'.split())[:LONGEST_MESSAGE]
-            return _failed(source, 'internal-error', f'cannot be followed: {told}', DEFECT)
+            message = ' '.join(f'{type(error).__name__}: {error}'.split())[:LONGEST_MESSAGE]
+            return _failed(source, 'internal-error', f'cannot be followed: {message}', DEFECT)
         finally:
             forget_programs()
 
@@ -245,7 +245,7 @@ class _Scan:
         every = list(zip(from_entries, from_rest, strict=True))
         noticed = [d for pair in every for found in pair for d in found.noticed]
         cut = [found.cut or other.cut for found, other in every]
-        noticed.extend(self._told_as_cut(cut))
+        noticed.extend(self._reported_as_cut(cut))
         noticed.extend(self._worker.unread_programs)
         unread = (*self._project.barred, *(d for each in read for d in each.unread))
         extraction = Extraction(
@@ -303,7 +303,7 @@ class _Scan:
 
     @contextmanager
     def _ended_by_interrupt(self) -> Iterator[None]:
-        """End what is within on an interrupt, where what is done is to be told."""
+        """End what is within on an interrupt, where results so far are to be reported."""
         try:
             yield
         except KeyboardInterrupt:
@@ -311,8 +311,8 @@ class _Scan:
                 raise
             self._is_interrupted = True
 
-    def _told_as_cut(self, cut: Sequence[str]) -> Iterator[Diagnostic]:
-        """Tell once what may be missing, at the first file of it."""
+    def _reported_as_cut(self, cut: Sequence[str]) -> Iterator[Diagnostic]:
+        """Report once what may be missing, at the first file of it."""
         places = [source.shown for source, why in zip(self._files, cut, strict=True) if why]
         if places:
             yield Diagnostic(
@@ -340,7 +340,7 @@ class _Covered:
     """
     What was followed already, by file.
 
-    :ivar grown: files of which more was covered since.
+    :ivar grown: files that have more covered since.
     """
 
     def __init__(self, found: Iterable[Found]) -> None:

@@ -15,5 +15,5 @@ def may_make_entities(world: World, start: ast.AST) -> bool:
 
 
 def may_wait(world: World, start: ast.AST) -> bool:
-    """Whether something that ``start`` names waits for somebody else."""
+    """Whether something that ``start`` names waits for other code."""
     return any(waits_for_others(node) for node in reachable(world, start))

@@ -37,7 +37,7 @@ _PASSED = {
 
 
 def is_unfit(machine: RosInterpreter, entity: EntityState, callback: Value) -> bool:
-    """Whether an entity can never call that function; this is told."""
+    """Whether an entity can never call that function; if so, report it."""
     numbers = _PASSED.get(entity.kind)
     function, bound = _called(callback, entity.place)
     if numbers is None or entity.library is not None or not isinstance(function, Function):
@@ -45,7 +45,7 @@ def is_unfit(machine: RosInterpreter, entity: EntityState, callback: Value) -> b
     calls = {each: replace(bound, args=[*bound.args, *[NONE] * each]) for each in numbers}
     fitting = [each for each, call in calls.items() if fits(function, call)]
     if not fitting or (entity.kind is EntityKind.TIMER and fitting == [1] and not _asks(function)):
-        _tell(machine, function, numbers[0])
+        _report(machine, function, numbers[0])
         return True
     entity.takes_info = entity.takes_info or numbers[0] not in fitting
     return False
@@ -74,11 +74,11 @@ def _asks(function: Function) -> bool:
     )
 
 
-def _tell(machine: RosInterpreter, function: Function, number: int) -> None:
+def _report(machine: RosInterpreter, function: Function, number: int) -> None:
     many = '1 argument' if number == 1 else f'{number} arguments'
     name = 'this lambda' if isinstance(function.node, ast.Lambda) else function.name
     at = Place(function.module.file, function.node.lineno, function.node.col_offset + 1)
-    told = Diagnostic(
+    reported = Diagnostic(
         severity=Severity.WARNING,
         slug='not-followed',
         place=at,
@@ -86,5 +86,5 @@ def _tell(machine: RosInterpreter, function: Function, number: int) -> None:
         'TypeError, so what it does is not looked at',
         help='give it the parameters of such a callback',
     )
-    if told not in machine.world.diagnostics:
-        machine.world.diagnostics.append(told)
+    if reported not in machine.world.diagnostics:
+        machine.world.diagnostics.append(reported)

@@ -84,10 +84,10 @@ def facts_of(state: ActivityState) -> FunctionFacts:
 
 def own_spins(state: ActivityState, world: RosWorld, nodes: Sequence[Instance]) -> tuple[Act, ...]:
     """
-    Where ``main`` runs the callbacks of ``nodes``, if nobody else does.
+    Where ``main`` runs the callbacks of ``nodes``, if nothing else does.
 
     Then it stands still while they run, and they do while it goes on: by its one thread, or in
-    a spin forever, whose pool runs nothing before.
+    a spin forever; its pool runs nothing before.
     """
     spins = [spin for spin in world.spins.values() if not set(nodes).isdisjoint(spin.nodes)]
     executors = {spin.executor for spin in spins if not spin.for_ever}
@@ -157,14 +157,14 @@ def _only_node(state: ActivityState, names: dict[int, str]) -> str | None:
 
 
 def _takes_turns(state: ActivityState, starter: object) -> bool:
-    """Whether it begins only when whoever starts it has ended: both have one thread."""
+    """Whether it begins only when the code that starts it has ended: both have one thread."""
     if isinstance(starter, EntityState):
         return state.turns is not None and starter.node.state.loop == state.turns
     return state.turns is not None and getattr(starter, 'turns', None) is state.turns
 
 
 def _is_conditional(state: ActivityState) -> bool:
-    """Whether a branch of whoever starts it may skip that."""
+    """Whether a branch of the code that starts it may skip the start."""
     starts = [start for start in state.starts if start.by is not None]
     return all(start.conditional for start in starts) if starts else bool(state.path)
 

@@ -30,7 +30,7 @@ from ros2cc_extract.extract.static.units.callback_names import (
 )
 from ros2cc_extract.extract.static.units.entity_aliases import same_on_a_ghost
 from ros2cc_extract.extract.static.units.executor import Unit, executor_of
-from ros2cc_extract.extract.static.units.set_up_waits import told
+from ros2cc_extract.extract.static.units.set_up_waits import named_waits
 from ros2cc_extract.extract.static.units.torn_messages import pieces_of
 from ros2cc_extract.extract.static.units.unused_groups import unused_groups
 from ros2cc_extract.extract.static.units.waits import UnitWaits
@@ -141,7 +141,7 @@ class UnitBuilder:
             reason = f'node name {name.text}: {name.unknown.reason}'.replace(' :', ':')
             at = name.unknown.at or at
         elif name is None:
-            reason = 'no call of Node.__init__ with a name is in sight'
+            reason = 'no call of Node.__init__ with a name is known'
         self._facts.append(
             Unresolved(subject=mend(label), fact='node_name', reason=reason, source=at)
         )
@@ -163,7 +163,7 @@ class UnitBuilder:
         )
 
     def _each_once(self, entities: Sequence[EntityState]) -> list[EntityState]:
-        """What objects in the same position make on a node nobody knows is one entity."""
+        """What objects in the same position make on an unknown node is one entity."""
         kept: dict[object, EntityState] = {}
         for entity in entities:
             key = same_on_a_ghost(entity)
@@ -207,7 +207,7 @@ class UnitBuilder:
         return Wanted(facts.label, self._key_text(entity), node)
 
     def _groups(self, entities: Sequence[EntityState], labels: list[str]) -> list[CallbackGroup]:
-        """The groups in use, in order of first use by creation; then those that nobody uses."""
+        """The groups in use, in order of first use by creation; then unused ones."""
         unwritten = {id(entity) for entity in self._world.builtins}
         pairs = sorted(
             zip(entities, labels, strict=True),
@@ -338,7 +338,7 @@ class UnitBuilder:
             )
             for state in states
         ]
-        set_up = told(self._unit.set_up, self._world, waits, doers)
+        set_up = named_waits(self._unit.set_up, self._world, waits, doers)
         return with_waits, without_loops_for_good(activities, with_waits), set_up
 
     def _sources(self, entities: Sequence[EntityState]) -> tuple[str, ...]:
@@ -355,10 +355,10 @@ def _plain_label(node: Instance) -> str:
 
 
 def _key_of(entity: EntityState) -> tuple[str | Unknown | None, str | None]:
-    """Its name, and the rule by which that was assumed; a client's unknown name is told once."""
+    """Its name, and the rule that assumed it; a client's unknown name is reported once."""
     key, assumed = _key(entity.key)
-    is_told = entity.kind is EntityKind.DONE_CALLBACK and isinstance(key, Unknown)
-    return (None, None) if is_told else (key, assumed)
+    is_reported = entity.kind is EntityKind.DONE_CALLBACK and isinstance(key, Unknown)
+    return (None, None) if is_reported else (key, assumed)
 
 
 def _key(value: Value | None) -> tuple[str | Unknown | None, str | None]:
@@ -398,7 +398,7 @@ def _number(value: Value | None) -> float | None:
 
 
 def _unit_label(nodes: Sequence[str]) -> str:
-    """Name a unit by its nodes; a file is often called ``node.py`` and tells nothing."""
+    """Name a unit by its nodes; a file is often called ``node.py`` and says nothing."""
     if len(nodes) > 2:
         return f'{nodes[0]}_and_{len(nodes) - 1}_more'
     return '_and_'.join(nodes) or 'unit'

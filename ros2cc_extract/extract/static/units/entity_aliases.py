@@ -1,4 +1,4 @@
-"""Which entities of a node that nobody knows are one and the same, as far as the text tells."""
+"""Which entities of an unknown node are one and the same, as far as the text shows."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _group(group: Instance) -> object:
 
 
 def _code(callback: Value | None) -> object:
-    """Equal for functions of one text, whatever object they belong to."""
+    """Return a key that is equal for functions of one text, on any object."""
     if isinstance(callback, Partial):
         return _code(callback.function)
     function = callback.function if isinstance(callback, Bound) else callback
@@ -61,16 +61,16 @@ def _code(callback: Value | None) -> object:
 
 def each_once(units: Sequence[Spec]) -> tuple[Spec, ...]:
     """
-    Units of unknown nodes alone are told once, however many programs lead to them.
+    Units of unknown nodes alone are kept once, however many programs lead to them.
 
-    One that only lacks a caller is not told where another unit has that caller in sight.
+    A unit that only lacks a caller is left out if another unit has that caller.
     """
     known = [c for unit in units for c in unit.callbacks if isinstance(c.node, str)]
     owned = {_what(c) for c in known}
     named = {_line(c) for c in known if not _nobody_passes(c.key)}
     kept: dict[object, Spec] = {}
     for unit in units:
-        if unit.callbacks and all(_is_told(c, owned, named) for c in unit.callbacks):
+        if unit.callbacks and all(_is_reported(c, owned, named) for c in unit.callbacks):
             continue
         is_known = any(not isinstance(callback.node, Unknown) for callback in unit.callbacks)
         key = id(unit) if is_known else replace(unit, entry=None, sources=(), set_up=())
@@ -78,8 +78,8 @@ def each_once(units: Sequence[Spec]) -> tuple[Spec, ...]:
     return tuple(kept.values())
 
 
-def _is_told(callback: Callback, owned: set[object], named: set[object]) -> bool:
-    """Whether it only lacks a caller, and another unit has that caller in sight."""
+def _is_reported(callback: Callback, owned: set[object], named: set[object]) -> bool:
+    """Whether it only lacks a caller, and another unit has that caller."""
     if _nobody_passes(callback.key):
         return _line(callback) in named
     return _nobody_passes(callback.node) and _what(callback) in owned
@@ -90,10 +90,10 @@ def _nobody_passes(fact: object) -> bool:
 
 
 def _line(callback: Callback) -> object:
-    """Equal for one line that makes one thing under whatever name, on whatever node."""
+    """Return a key that is equal for one line that makes one thing, under any name on any node."""
     return callback.entity, callback.source, callback.function
 
 
 def _what(callback: Callback) -> object:
-    """Equal for one line that makes one thing on whatever node."""
+    """Return a key that is equal for one line that makes one thing on any node."""
     return callback.entity, callback.source, callback.function, callback.key

@@ -27,8 +27,8 @@ class Unit:
     """
     An executor and the nodes it serves in the end.
 
-    :param spin: the call that spins it, ``None`` when there is none in sight.
-    :param mark: tells units apart of which a program only ever runs one.
+    :param spin: the call that spins it, ``None`` if no such call is known.
+    :param mark: distinguishes units if a program only ever runs one of them.
     :param is_only: the program has no other.
     :param set_up: waits of the code that sets it up or ends it.
     """
@@ -77,7 +77,7 @@ def executor_of(
     unresolved = state.unknown or state.unresolved or state.threads_unresolved
     elsewhere = _spun_elsewhere(unit) if entry is None else None
     if spin is None and unresolved is None:
-        reason = 'no call that spins this executor is in sight'
+        reason = 'no call that spins this executor is known'
         unresolved = _nested_spin(unit) or Unknown(reason, unit.executor.place)
     return Executor(
         name=name,
@@ -123,21 +123,21 @@ def _wait_sets(tree: ast.Module) -> tuple[tuple[int, int], ...]:
 
 
 def _spun_elsewhere(unit: Unit) -> Unknown | None:
-    """Why somebody who is not in sight may serve the nodes by another executor."""
+    """Why unknown code may serve the nodes by another executor."""
     spin = unit.spin
     if spin is None:
         return None
     if not spin.for_ever and any(is_handed_over(node) for node in unit.nodes):
-        reason = f'{spin.how} serves this node in passing; who else does is not in sight'
+        reason = f'{spin.how} serves this node in passing; what else serves it is not known'
         return Unknown(reason, spin.place)
     if spin.for_ever and any(i >= 0 for _, i in beyond(spin.path, unit.nodes[0].path)):
-        reason = f'{spin.how} stands under a condition; who else serves it is not in sight'
+        reason = f'{spin.how} stands under a condition; what else serves it is not known'
         return Unknown(reason, spin.place)
     return None
 
 
 def is_handed_over(node: Instance) -> bool:
-    """Whether the node comes from, or goes to, somebody who is not in sight."""
+    """Whether the node comes from, or goes to, unknown code."""
     made_for_nobody = isinstance(node.cls, Class) and node.place == node.cls.place
     return node.state.ghost is not None or made_for_nobody
 

@@ -1,7 +1,7 @@
 """
-Waits of code that no callback runs: ``main``, constructors, functions nobody in sight calls.
+Waits of code that no callback runs: ``main``, constructors, functions without a known caller.
 
-They hold up nobody but the code itself, so that no model has them. Who ends each is told as for
+They hold up only the code itself, so they are in no model. What ends each is found as for
 the waits of callbacks; where that is a callback, its node must be spun meanwhile.
 """
 
@@ -31,8 +31,8 @@ from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Needs
 
-_UNSPUN = 'nothing in sight spins {node} meanwhile'
-_NOBODY = 'nothing in sight ends it'
+_UNSPUN = 'no known code spins {node} meanwhile'
+_NOBODY = 'no known code ends it'
 _IN_HANDLER = 'a handler of a signal keeps the main thread'
 _STAYS = 'the thread may loop forever'
 
@@ -43,7 +43,7 @@ def share_out(world: RosWorld, units: Sequence[Unit]) -> None:
     for wait in world.set_up.values():
         if wait.by is not None and not wait.by.is_executor:
             _note_never_there(wait, world)
-            continue  # it is told as a wait of that thread
+            continue  # it is reported as a wait of that thread
         touched = (homes.get(id(node)) for node in _nodes_of(wait, world))
         home = next((unit for unit in touched if unit is not None), units[0] if units else None)
         if home is not None:
@@ -74,11 +74,11 @@ def _nodes_of(wait: SetUpWait, world: RosWorld) -> Iterator[object]:
             yield waking.by.node
 
 
-def told(
+def named_waits(
     waits: Iterable[SetUpWait], world: RosWorld, named: UnitWaits, doers: Mapping[str, object]
 ) -> tuple[Blocking, ...]:
     """
-    The waits by the names of their unit, with those who end them.
+    The waits by the names of their unit, with what ends them.
 
     :param doers: the callbacks and activities of the unit.
     """
@@ -102,7 +102,7 @@ class _SetUpWaits:
     doers: Mapping[str, object]
 
     def decided(self, block: Blocking, wait: SetUpWait) -> Blocking:
-        """The wait with the reason why nobody knows whether it ends, where that is so."""
+        """The wait with the reason why it is unknown whether it ends, if so."""
         late = late_servers(wait, self.world)
         if late is not None and late.is_sure:
             self.world.diagnostics.append(late.diagnostic())
@@ -132,7 +132,7 @@ class _SetUpWaits:
         if reasons and is_met:
             return None
         if wait.uncalled:
-            return f'nothing in sight calls {wait.uncalled}'
+            return f'no known code calls {wait.uncalled}'
         stuck_ones = [each for each in unserved if each is not None]
         if stuck_ones and self._is_sure(stuck_ones, len(reasons), block, wait):
             self.world.diagnostics.append(_never(block, stuck_ones[0]))
@@ -143,7 +143,7 @@ class _SetUpWaits:
     def _is_sure(
         self, unserved: Sequence[UnservedWait], wakers: int, block: Blocking, wait: SetUpWait
     ) -> bool:
-        """Whether it never ends, whatever else is there that was not seen."""
+        """Whether it never ends, even if there is more that was not seen."""
         is_needed = len(unserved) == wakers or block.needs is Needs.ALL
         is_needed = is_needed and not any(each.may_skip for each in unserved)
         is_needed = is_needed and not wait.in_handler

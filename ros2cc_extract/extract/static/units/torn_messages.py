@@ -20,12 +20,12 @@ def pieces_of(doer: EntityState | ActivityState, world: RosWorld) -> tuple[Acces
     ]
     sent = {piece.access.name for pieces in others for piece in pieces if not piece.part}
     changed = {name for pieces in others for name in _torn(pieces)}
-    told = _torn(mine) & sent
+    reported = _torn(mine) & sent
     return tuple(
         dict.fromkeys(
             piece.access
             for piece in mine
-            if piece.access.name in (told if piece.part else changed)
+            if piece.access.name in (reported if piece.part else changed)
         )
     )
 

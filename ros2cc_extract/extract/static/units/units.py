@@ -38,10 +38,10 @@ def specs_of(world: RosWorld, entry: str | None) -> list[Spec]:
         spec = UnitBuilder(world, unit).build(entry)
         found.append(_with_unresolved(spec))
     found = with_askers(found)
-    told = {(fact.reason, fact.source) for spec in found for fact in spec.unresolved}
-    told |= {(diagnostic.message, diagnostic.place) for diagnostic in world.diagnostics}
-    lost = [cut for cut in world.cut if (cut.reason, cut.place) not in told]
-    world.diagnostics.extend(_not_told(cut) for cut in lost)
+    reported = {(fact.reason, fact.source) for spec in found for fact in spec.unresolved}
+    reported |= {(diagnostic.message, diagnostic.place) for diagnostic in world.diagnostics}
+    lost = [cut for cut in world.cut if (cut.reason, cut.place) not in reported]
+    world.diagnostics.extend(_as_diagnostic(cut) for cut in lost)
     return found
 
 
@@ -84,12 +84,12 @@ def wholes_of(world: RosWorld, entry: str | None, specs: Sequence[Spec]) -> Iter
 
 
 def _is_known(executor: Executor) -> bool:
-    """Whether it is spun, whatever branch is taken, and serves as those of rclpy do."""
+    """Whether it is spun on every branch, and serves as those of rclpy do."""
     is_spun = executor.spun is not None and executor.alternative is None
     return is_spun and executor.unresolved is None and executor.kind in KINDS
 
 
-def _not_told(cut: Cut) -> Diagnostic:
+def _as_diagnostic(cut: Cut) -> Diagnostic:
     """What no unit can carry: there may be no node at all."""
     return Diagnostic(
         severity=Severity.WARNING,
@@ -108,7 +108,7 @@ def _not_spun(executor: Instance) -> Diagnostic:
         severity=Severity.WARNING,
         slug='executor-not-spun',
         place=executor.place,
-        message=f'{name} has nodes, and no call in sight spins it',
+        message=f'{name} has nodes, and no known call spins it',
         help=f'call {name}.spin()',
     )
 
@@ -119,7 +119,7 @@ def _not_run(loop: Instance) -> Diagnostic:
         severity=Severity.WARNING,
         slug='executor-not-spun',
         place=loop.place,
-        message='no call in sight runs this AsyncNode: none of its callbacks ever runs',
+        message='no known call runs this AsyncNode: none of its callbacks ever runs',
         help='enter it by `async with node:`, or `await node.run()`',
     )
 
@@ -131,7 +131,7 @@ def _with_unresolved(spec: Spec) -> Spec:
 
 
 def units_of(world: RosWorld) -> list[Unit]:
-    """One unit for each executor that is spun; then nodes that nobody spins."""
+    """One unit for each executor that is spun; then nodes that are not spun."""
     units = [unit for unit in _spun_units(world) if unit.nodes]
     served = {id(node) for unit in units for node in unit.nodes}
     for executor in world.executors:

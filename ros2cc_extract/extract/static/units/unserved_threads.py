@@ -1,5 +1,5 @@
 """
-Threads that the set-up waits for, and that themselves wait for callbacks which nobody serves yet.
+Threads that the set-up waits for, and that themselves wait for callbacks that are not served yet.
 
 The executor is spun behind the set-up: a thread that a constructor starts and joins gets no
 answer of a client meanwhile.
@@ -54,7 +54,7 @@ class UnservedThreads:
         doer = self._doers.get(waker.by)
         if not isinstance(doer, ActivityState) or waker.by in self._asked:
             return None
-        self._asked.add(waker.by)  # who waits for itself is told elsewhere
+        self._asked.add(waker.by)  # one that waits for itself is reported elsewhere
         found = self._first(waker.by, self._named.of(doer)[: waker.after])
         self._asked.discard(waker.by)
         return found

@@ -1,4 +1,4 @@
-"""Callback groups that a node makes and keeps, and that nobody ever asks it for."""
+"""Callback groups that a node makes and keeps, and that no code ever asks it for."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ros2cc_extract.extract.static.python.values.values import Class, Instance, 
 
 def unused_groups(nodes: Iterable[Instance], world: RosWorld) -> Iterator[Instance]:
     """
-    Groups in which nothing is, whatever was not followed.
+    Groups that are empty, even if something was not followed.
 
     Only those are certain that are stored in an attribute which no line of the program reads.
     """

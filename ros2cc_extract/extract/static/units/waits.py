@@ -1,4 +1,4 @@
-"""The waits of one unit: what each waits on, and who may end it, by the names of the unit."""
+"""The waits of one unit: what each waits on, and what may end it, by the names of the unit."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ from ros2cc_extract.spec.effects import (
 )
 from ros2cc_extract.spec.model import ActivityKind
 
-_KEPT = 'it is kept in a collection, and who takes it out could not be followed'
+_KEPT = 'it is kept in a collection, and the code that takes it out could not be followed'
 NOWHERE = Place('')
 _OF_FORK = 'a child of os.fork may wait for a lock that another thread held then'
 # What is waited for of one object may be several things.
@@ -109,7 +109,7 @@ class UnitWaits(DataWriters):
         return tuple(self._with_wakers(raw, named, doer) for raw, named in pairs)
 
     def of_set_up(self, raws: list[Blocking]) -> tuple[tuple[Blocking, Blocking], ...]:
-        """Waits of code that no callback runs, each as it was met and as the unit tells it."""
+        """Waits of code that no callback runs, each as it was met and as it is in the unit."""
         doer = ActivityState(ActivityKind.MAIN, NOWHERE, effects=EffectLog(blocking=raws))
         kept = self._kept[id(doer)] = self._keep(doer)
         named = self.of(doer)
@@ -132,9 +132,9 @@ class UnitWaits(DataWriters):
 
     def _is_none(self, raw: Blocking, doer: Doer) -> bool:
         """
-        Whether it never waits: it was asked before, and nobody else changes the answer.
+        Whether it never waits: it was asked before, and no other code changes the answer.
 
-        Nor does what nobody ever puts in: it is never found there.
+        Nor for what is never put in: it is never found there.
         """
         reference = raw.resource
         if not isinstance(reference, ResourceRef):
@@ -154,7 +154,7 @@ class UnitWaits(DataWriters):
         return len(takers) < 2 or keeps_to_itself(doer, takers.values())
 
     def _gives_back(self, raw: Blocking, doer: Doer) -> bool:
-        """Whether who takes a semaphore gives it back too, so that it is a lock."""
+        """Whether code that takes a semaphore gives it back too, so that it is a lock."""
         reference = raw.resource
         if raw.call not in TAKES_PERMIT or not isinstance(reference, ResourceRef):
             return False
@@ -268,7 +268,7 @@ class UnitWaits(DataWriters):
         return replace(named, wakers=tuple(dict.fromkeys(wakers)), escapes=escapes)
 
     def _of_data(self, raw: Blocking, on: DataRef, named: Blocking, doer: Doer) -> Blocking:
-        """A loop that waits until somebody has written what it reads."""
+        """A loop that waits until other code has written what it reads."""
         writers = tuple(dict.fromkeys((*self._writers(on), *self._by_main(raw, on, doer))))
         signals = self._signals(on, doer)
         if signals is None:
@@ -298,7 +298,7 @@ class UnitWaits(DataWriters):
         )
 
     def _unsent(self, raw: Blocking, doer: Doer) -> str | None:
-        """The topics on which nobody in sight publishes before the wait has ended."""
+        """The topics on which no known code publishes before the wait has ended."""
         reference = raw.resource
         if not isinstance(reference, ResourceRef) or _is_in_turn(reference, doer):
             return None
@@ -392,20 +392,20 @@ class UnitWaits(DataWriters):
         return self._names.get(id(doer))
 
     def _why_open(self, mine: list[Waking], reference: ResourceRef) -> Unknown | None:
-        """Why it is not known who ends the wait."""
+        """Why it is not known what ends the wait."""
         if reference.asked and reference.number not in self._world.given:
             return Unknown('somebody else may have taken what was asked for')
         return self._why_others(mine, reference)
 
     def _why_others(self, mine: list[Waking], reference: ResourceRef) -> Unknown | None:
-        """Why somebody may end the wait who is not known."""
+        """Why unknown code may end the wait."""
         known = self._world.given.get(reference.number) or why_open(mine, reference, self._world)
         if known is not None:
             return known
         uncalled = next((w for w in mine if w.uncalled is not None), None)
         if uncalled is not None:
             return Unknown(
-                f'nothing in sight calls {uncalled.uncalled}, which ends it', uncalled.place
+                f'no known code calls {uncalled.uncalled}, which ends it', uncalled.place
             )
         return uncalled_wakers(self._world, str(reference), reference.ended_by, reference.made)
 
@@ -473,12 +473,12 @@ def _ends_by_itself(wakers: Iterable[Waker]) -> bool:
 
 
 def _unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:
-    """The same wakers, of which nobody knows whether they come."""
+    """The same wakers, marked as perhaps not coming."""
     return tuple(replace(waker, conditional=True) for waker in wakers)
 
 
 def _why_none(raw: Blocking, mine: list[Waking], doer: Doer, world: RosWorld) -> Unknown | None:
-    """Why it is not known whether anybody ends a wait that nobody in sight ends."""
+    """Why it is not known whether a wait without a known waker ends."""
     if mine or not isinstance(raw.resource, ResourceRef):
         return None
     words = raw.resource.ended_by
@@ -486,7 +486,7 @@ def _why_none(raw: Blocking, mine: list[Waking], doer: Doer, world: RosWorld) ->
         return Unknown('how many threads come there is not known', raw.source)
     if words == {Word.END}:
         is_join = raw.call.endswith('.join')
-        reason = 'nothing in sight starts it' if is_join else 'its end is not in sight'
+        reason = 'no known code starts it' if is_join else 'its end is not known'
         return Unknown(reason, raw.source)
     kept = world.kept_inside.get(raw.resource.number)
     return Unknown(_KEPT, kept) if kept is not None else None

@@ -27,7 +27,7 @@ def find(context: Context) -> Iterator[Hit]:
 
 
 def groups_of(context: Context) -> set[str]:
-    """Names of the groups that somebody uses."""
+    """Names of the groups in use."""
     return {callback.group for callback in context.unit.callbacks}
 
 

@@ -14,7 +14,7 @@ from ros2cc_extract.spec.model import NO_EXECUTOR
 
 EXECUTOR = 'executor'
 _HIDING = frozenset({'entities', 'node', 'function'})
-"""Facts that may hide who serves a node, where they are missing."""
+"""Facts that, if missing, may hide what serves a node."""
 
 
 def find(context: Context) -> Iterator[Hit]:
@@ -38,7 +38,7 @@ def is_not_served(context: Context) -> bool:
     True where a program was followed to its end, and its node is in no executor.
 
     A test may well call the functions of a node by itself; a client alone has nothing to run,
-    and a wait for its answer is told where it waits.
+    and a wait for its answer is reported where it waits.
     """
     unit = context.unit
     kind = unit.executor.kind

@@ -42,10 +42,10 @@ class Step:
 def find(context: Context) -> Iterator[Hit]:
     """One finding per lock taken twice, and per pair of locks and of those that take them."""
     steps = list(_steps(context))
-    told: set[tuple[str, str]] = set()
+    reported: set[tuple[str, str]] = set()
     for step in steps:
-        if step.held == step.wanted and (step.doer.name, step.held) not in told:
-            told.add((step.doer.name, step.held))
+        if step.held == step.wanted and (step.doer.name, step.held) not in reported:
+            reported.add((step.doer.name, step.held))
             yield _taken_twice(step)
     crossed: set[frozenset[str]] = set()
     for one, other in _pairs(steps):

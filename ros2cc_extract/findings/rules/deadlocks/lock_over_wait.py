@@ -1,4 +1,4 @@
-"""CC115: a lock is held over a wait that only ends when somebody else has got that lock."""
+"""CC115: a lock is held over a wait that only ends when another doer has got that lock."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ def find(context: Context) -> Iterator[Hit]:
     unit = context.unit
     if unit.unresolved or isinstance(workers_of(unit.executor), Unknown):
         return
-    told: set[tuple[str, str]] = set()
+    reported: set[tuple[str, str]] = set()
     for wait in waits_of(context):
         for lock in _held(wait):
             key = (wait.caller.name, lock)
-            stuck = {} if key in told else dict(_stuck(wait.caller, lock, context))
+            stuck = {} if key in reported else dict(_stuck(wait.caller, lock, context))
             if stuck:
-                told.add(key)
+                reported.add(key)
                 yield _hit(wait, lock, stuck, context)
 
 
@@ -49,7 +49,7 @@ def _held(wait: Wait) -> Iterator[str]:
 
 
 def _stuck(caller: Callback, lock: str, context: Context) -> Iterator[tuple[str, Act]]:
-    """Whoever takes the lock and is known to wait for it forever, by name."""
+    """The callbacks that take the lock and are known to wait for it forever, by name."""
     for other in context.written:
         if other.node == caller.node and _waits_for_ever(other, caller, context):
             for act in other.locks:
@@ -76,7 +76,7 @@ def _hit(wait: Wait, lock: str, stuck: dict[str, Act], context: Context) -> Hit:
     others = [context.by_name[name] for name in stuck]
     again = others == [caller]
     who = 'another run of it' if again else shown(others)
-    # With one run at a time nobody is stuck: whether so many come together the rates decide.
+    # With one run at a time none is stuck: the rates decide whether so many come together.
     rests_on_rates = any(is_of_repeated(other, context) for other in others)
     how_many = 'all' if rests_on_rates else 'both'
     one_thread = is_one_thread(context.unit.executor)

@@ -1,4 +1,4 @@
-"""CC109: the model knows a run in which somebody waits forever, and no other rule says why."""
+"""CC109: the model has a run in which a callback waits forever, and no other rule says why."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def find(context: Context) -> Iterator[Hit]:
     """
     One finding for all that hang together, where all facts are known.
 
-    Who is held up by a wait that another rule explains is no finding of its own.
+    A callback held up by a wait that another rule explains is no finding of its own.
     """
     yield from (_unread(alike) for alike in at_one_place(_for_writers(context)))
     if not open_facts(context):
@@ -86,7 +86,7 @@ def hits_of(
     """
     One finding for all that hang together.
 
-    :param concerns: whether it is to be told of those.
+    :param concerns: whether it is to be reported for those.
     """
     for together, stuck in unexplained(context):
         if concerns(together):
@@ -94,7 +94,7 @@ def hits_of(
 
 
 def _for_writers(context: Context) -> Iterator[AnyWait]:
-    """Waits for the end of children that wait for somebody to read what they write."""
+    """Waits for the end of children that wait for a reader of their output."""
     for doer in context.doers:
         blocks = (block for block in doer.blocking if block.unread is not None)
         yield from (AnyWait(doer, block, kind_of(block)) for block in blocks)
@@ -151,10 +151,10 @@ def unexplained(context: Context) -> Iterator[tuple[list[Stuck], list[Stuck]]]:
     explained = {
         subject for rule in EXPLAINED for hit in rule.find(context) for subject in hit.subjects
     }
-    told: set[str] = set()
+    reported: set[str] = set()
     for caller in context.doers:
         run = refuting_run(PROGRESS, context, caller)
-        if run is None or rests_on_absent_service(run) or caller.name in told:
+        if run is None or rests_on_absent_service(run) or caller.name in reported:
             continue
         stuck = stuck_in(run, context)
         names = {each.doer.name for each in stuck}
@@ -164,7 +164,7 @@ def unexplained(context: Context) -> Iterator[tuple[list[Stuck], list[Stuck]]]:
             # A thread that the program ends at its end waits as long as it is meant to.
             if block.call == WORKING_LOOP or block.at_end is not None:
                 continue
-            told.update(each.doer.name for each in together)
+            reported.update(each.doer.name for each in together)
             yield together, stuck
 
 
@@ -179,7 +179,7 @@ def open_facts(context: Context) -> str:
 
 
 _MATTERS = ('entities', 'group', 'executor', 'function', 'threads')
-"""Facts of a unit that may change who runs beside whom, or who ends a wait."""
+"""Facts of a unit that may change which callbacks overlap, or what ends a wait."""
 
 
 def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit:
@@ -213,7 +213,7 @@ def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit
 
 
 def _repeated(stuck: Sequence[Stuck]) -> tuple[Doer, ...]:
-    """Who stands still in several runs at a time."""
+    """The callbacks that stand still in several runs at a time."""
     doers = [each.doer for each in stuck]
     return tuple(dict.fromkeys(doer for doer in doers if doers.count(doer) > 1))
 
@@ -231,7 +231,7 @@ def _help_where_repeated(repeated: Sequence[Doer]) -> str:
 
 
 def _keeps_the_program(stuck: Stuck) -> bool:
-    """What nobody else touches may be meant to keep ``main`` from its end."""
+    """What no other code touches may be meant to keep ``main`` from its end."""
     is_main = isinstance(stuck.doer, Activity) and stuck.doer.kind is ActivityKind.MAIN
     return is_main and not stuck.enders and stuck.wait.block.call == 'Event.wait'
 

@@ -84,7 +84,7 @@ RULE = Rule(
     '`MultiThreadedExecutor(num_threads=1)` has one worker, and the spinning thread runs no '
     'callbacks. The `EventsExecutor` is single-threaded too. Sources: rclpy 7.1.6 and 9.1.2, '
     '`executors.py`, `experimental/events_executor.py`, `client.py`. Measured: 0 completed calls '
-    'on one thread, whatever groups are used.',
+    'on one thread, with any groups.',
     bad="""\
 class Navigator(Node):
     def __init__(self):

@@ -56,7 +56,7 @@ def shut_out_by(wait: Wait, context: Context) -> Callback | None:
 
 
 def _instead(wait: Wait) -> str:
-    """The other way out; who waits for an event has no call to make otherwise."""
+    """The other way out; code that waits for an event has no call to make asynchronous."""
     is_signal = wait.kind is WaitKind.SIGNAL
     return '' if is_signal else ', or use call_async and continue in a done-callback'
 
@@ -83,7 +83,7 @@ def _hit(waits: Sequence[Wait], context: Context) -> Hit:
 
 
 def what(callback: Callback) -> str:
-    """Name whom the reader has to move: a client has no function of its own."""
+    """Name what the reader has to move: a client has no function of its own."""
     return 'the client' if is_client(callback) else callback.display_name
 
 

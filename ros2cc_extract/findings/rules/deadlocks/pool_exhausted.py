@@ -35,7 +35,7 @@ def find(context: Context) -> Iterator[Hit]:
     """
     One thread is CC102's case, and a wait that never ends by itself is CC101's.
 
-    Where no executor is in sight there is no number to compare with.
+    Without a known executor there is no number to compare with.
     """
     executor = context.unit.executor
     if is_one_thread(executor) or isinstance(executor.kind, Unknown):
@@ -70,7 +70,7 @@ def _found(waits: Sequence[Wait], context: Context) -> Iterator[Hit]:
 
 def _is_of_endless_services(hit: Hit, waits: Sequence[Wait], context: Context) -> bool:
     """
-    Whether it tells of services that wait without a time-out, on a known number of threads.
+    Whether it is about services that wait without a time-out, on a known number of threads.
 
     Any client may ask while another one waits: what the model shows then is no matter of speed.
     """
@@ -85,7 +85,7 @@ def _found_looping(waits: Sequence[Wait], context: Context) -> Iterator[Hit]:
     """
     Loops that look again and again, and end otherwise too, take all the threads.
 
-    Only where their number is exact: whoever could end them runs when the first is over.
+    Only where their number is exact: what could end them runs when the first is over.
     """
     callers = {wait.caller.name: wait.caller for wait in waits}
     capacity = capacity_of(tuple(callers.values()), context)
@@ -180,7 +180,7 @@ def _hit(waits: Sequence[Wait], capacity: Capacity, rest: str, severity: Severit
 
 
 def _counted(capacity: Capacity) -> str:
-    """Name those who can wait together, and how often each that is there several times."""
+    """Name those that can wait together, and how often each that is there several times."""
     times: Counter[str] = Counter()
     for callback, number in zip(capacity.together, capacity.times, strict=True):
         times[called(callback)] += number
@@ -190,9 +190,7 @@ def _counted(capacity: Capacity) -> str:
 def _asked(capacity: Capacity) -> Iterator[Remark]:
     for service in capacity.together:
         if service.askers and service.source is not None:
-            words = (
-                f'{plural(service.askers, "client")} in sight may ask {called(service)} at once'
-            )
+            words = f'{plural(service.askers, "known client")} may ask {called(service)} at once'
             yield Remark(service.source, words)
 
 
@@ -271,7 +269,7 @@ RULE = Rule(
     'itself is a note. It is a warning for a subscription or timer that sleeps by a `Rate`, '
     'since each run sleeps for a period, and for a service that waits without a time-out where '
     'the model has a run in which all threads are taken by one arrival for each callback. A '
-    'service of a reentrant group counts as often as clients in sight may call it at the same '
+    'service of a reentrant group counts as often as known clients may call it at the same '
     'time, on any executor. If it takes more requests than these, it stays a note, and the run '
     'is shown. A callback that claims a state under a lock, waits, and releases it is not '
     'reported. Loops that sleep and then check whether another callback has written something '

@@ -163,16 +163,16 @@ def _named(wait: AnyWait) -> str:
 
 def _for_messages(context: Context) -> Iterator[AnyWait]:
     """
-    Waits for messages from another process: answers, and what nobody here can send meanwhile.
+    Waits for messages from another process: answers, and what nothing here can send meanwhile.
 
-    Nobody says when a message is lost, or nobody listens. Where the model refutes the wait
-    anyhow, that is told.
+    No error shows a lost message, or a missing listener. If the model refutes the wait
+    anyhow, that is reported.
     """
     for caller in context.doers:
         if refuting_run(PROGRESS, context, caller) is None:
             for block in caller.blocking:
                 is_for_one = block.answer_to is not None or block.unsent is not None
-                if is_for_one and block.escapes is None:  # else it is told as undecided
+                if is_for_one and block.escapes is None:  # else it is reported as undecided
                     yield AnyWait(caller, block, kind_of(block))
 
 
@@ -212,7 +212,7 @@ def _is_for_spinning(wait: AnyWait, context: Context) -> bool:
     A thread that waits for the end of one that spins lives as long as the program.
 
     So does one that goes round until a signal comes, or until the program ends; and the main
-    program, where no other thread needs it, waits until somebody wants it to go on or to end.
+    program, where no other thread needs it, waits until other code wants it to go on or to end.
     """
     caller = wait.caller
     is_main = isinstance(caller, Callback) and caller.is_main
@@ -227,7 +227,7 @@ def _is_for_spinning(wait: AnyWait, context: Context) -> bool:
 
 def _holds_nobody_up(wait: AnyWait, context: Context) -> bool:
     """
-    Whether a thread waits in code that is not followed, and nobody needs it to go on.
+    Whether a thread waits in code that is not followed, and nothing needs it to go on.
 
     A server on a loop of its own does nothing else.
     """
@@ -239,7 +239,7 @@ def _only_listens(wait: AnyWait, context: Context) -> bool:
     """
     Whether a daemon thread waits for the next word from outside, or for a child, and no more.
 
-    That is its work: nobody needs it to go on, and the program ends without it.
+    That is its work: nothing needs it to go on, and the program ends without it.
     """
     thread = wait.caller
     if not isinstance(thread, Activity) or not thread.daemon or not _ends_outside(wait.block):
@@ -261,19 +261,19 @@ def _is_foreign(block: Blocking) -> bool:
     return isinstance(block.on, Unknown) and block.call in _FOREIGN
 
 
-def _cut_short(context: Context, told: Sequence[AnyWait]) -> Iterator[AnyWait]:
+def _cut_short(context: Context, reported: Sequence[AnyWait]) -> Iterator[AnyWait]:
     """
-    Waits of callbacks about whose end a limit of the checker has left the question open.
+    Waits of callbacks whose ends are undecided because of a limit of the checker.
 
-    Or that end only by what nobody knows to come; where a wait is told already, claims about
+    Or that end only by what is not known to come; where a wait is reported already, claims about
     ends may be open for its reason.
     """
-    callers = {wait.caller.name for wait in told}
+    callers = {wait.caller.name for wait in reported}
     for caller in context.doers:
         result = verdict_on(PROGRESS, context, caller)
         if result is None or result.verdict is not Verdict.UNDECIDED or caller.name in callers:
             continue
-        if result.in_doubt or not told:
+        if result.in_doubt or not reported:
             yield from (
                 AnyWait(caller, block, kind_of(block))
                 for block in caller.blocking
@@ -287,7 +287,7 @@ def _unwoken(context: Context) -> Iterator[AnyWait]:
     """
     Awaits that a thread ends, and that last forever in the model, which knows no other wake-up.
 
-    Whether somebody calls ``wake``, or else something comes, the specification does not say.
+    The specification does not say whether code calls ``wake``, or something else comes.
     """
     for caller in context.written:
         run = refuting_run(PROGRESS, context, caller)
@@ -303,7 +303,7 @@ def _is_by_thread(block: Blocking) -> bool:
 
 
 def _not_proven(context: Context) -> Iterator[AnyWait]:
-    """Waits that last forever in the model of a unit of which not all facts are known."""
+    """Waits that last forever in the model of a unit with unknown facts."""
     if open_facts(context):
         yield from (stuck.wait for together, _ in unexplained(context) for stuck in together)
 
@@ -312,7 +312,7 @@ def _of_set_up(context: Context) -> Iterator[AnyWait]:
     """
     Waits of code that no callback runs; what others outside end there is taken to end.
 
-    An await of a library's coroutine holds up nobody but its own coroutine, whatever it is called.
+    An await of a library's coroutine holds up only its own coroutine, under any name.
     """
     caller = _set_up(context)
     foreign = [block for block in context.unit.set_up if _is_foreign(block)]
@@ -345,7 +345,7 @@ def _limit_of(wait: AnyWait, context: Context) -> str:
 
 
 def _senders(topics: str, context: Context) -> Iterator[Callback | Activity]:
-    """Who publishes them here."""
+    """What publishes them here."""
     for doer in context.doers:
         names = (act.name for act in doer.publishes if isinstance(act.name, str))
         if any(name.strip('/') in topics.split(', ') for name in names):
@@ -386,7 +386,7 @@ def _hit(waits: Sequence[AnyWait], reason: str, context: Context, *, is_outside:
 
 
 def _help(wait: AnyWait, *, is_outside: bool) -> str:
-    """A loop has no time-out; who waits in a thread of its own is in one already."""
+    """A loop has no time-out; code that waits in a thread of its own is in one already."""
     if is_outside:
         own = '' if isinstance(wait.caller, Activity) else ', or do it in a thread of its own'
         return f'give it a time-out{own}'
@@ -399,7 +399,7 @@ def _help(wait: AnyWait, *, is_outside: bool) -> str:
 
 def _others(wait: AnyWait) -> str:
     """
-    Whom the unit does not show, with those of the unit that end it too.
+    What the unit does not show, with what ends it too in the unit.
 
     That may be another executor of the same program: units are judged one by one.
     """
@@ -414,8 +414,8 @@ UNDECIDED = Rule(
     severity=Severity.NOTE,
     title='Wait that could not be decided',
     what='A callback, `main` or a thread waits for something, and the code that ends the wait '
-    'could not be followed: the object was passed to code that is not in sight, or nothing in '
-    'sight ends the wait. The same holds for an await of something that a thread completes: that '
+    'could not be followed: the object was passed to unknown code, or no known code ends the '
+    'wait. The same holds for an await of something that a thread completes: that '
     'wakes no executor, and it is unknown when something else does; on Humble, of a spin until '
     'a future that a thread completes. Whether the wait ends is '
     'open, and so is every claim that depends on it. There is one line for each wait, not for '
@@ -427,7 +427,7 @@ UNDECIDED = Rule(
 class Feeder(Node):
     def __init__(self):
         super().__init__('feeder')
-        self.jobs = connect_to_plant()           # a library whose source is not in sight
+        self.jobs = connect_to_plant()           # a library whose source is not available
         self.create_timer(0.5, self.feed)
 
     def feed(self):
@@ -438,7 +438,7 @@ class Feeder(Node):
     def feed(self):
         self.jobs.wait(timeout=0.1)
 """,
-    mend='Give the wait a time-out. Or let a callback or a thread in sight end it, so that the '
+    mend='Give the wait a time-out. Or let a known callback or thread end it, so that the '
     'model can decide it.',
     find=find_undecided,
 )

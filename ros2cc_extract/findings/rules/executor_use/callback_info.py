@@ -1,4 +1,4 @@
-"""CC124 and CC126: a callback has a parameter for which some releases pass nothing."""
+"""CC124 and CC126: a callback has a parameter that some releases pass nothing for."""
 
 from __future__ import annotations
 

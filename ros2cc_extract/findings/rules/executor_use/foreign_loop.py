@@ -1,4 +1,4 @@
-"""CC119: what belongs to a loop of asyncio is touched by another thread; the extractor tells."""
+"""CC119: another thread touches what belongs to a loop of asyncio; found by the extractor."""
 
 from __future__ import annotations
 

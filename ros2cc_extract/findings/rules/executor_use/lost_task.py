@@ -1,4 +1,4 @@
-"""CC123: a coroutine that nobody awaits, or a task that nobody keeps; the extractor tells."""
+"""CC123: a coroutine that nobody awaits, or a task that nobody keeps; found by the extractor."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ RULE = Rule(
     'task ends nothing and is reported at some later time, and the garbage collector may destroy '
     'the task while it waits.',
     why='Calling a coroutine function only makes a coroutine; `await` or a task runs it. A loop '
-    'keeps weak references to its tasks, and the exception of a task is for whoever awaits it. '
+    'keeps weak references to its tasks, and a task raises its exception where it is awaited. '
     'Sources: Python 3.12, library reference, "Coroutines and Tasks", `asyncio/tasks.py`. '
     'Observed with rclpy 10.0.10 and 11.0.0: a `call` without `await` sends nothing, a '
     '`ValueError` in a task leaves the `AsyncNode` running, and a task that waited for a future '

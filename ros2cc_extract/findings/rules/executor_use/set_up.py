@@ -29,7 +29,7 @@ NOBODY_SPINS = Rule(
     'restarts itself in each run, because a `cancel` while its function runs has no effect.',
     why='`Client.call` and a loop until `future.done()` do not spin: the executor of the '
     "client's node takes the answer, and that of the server's node takes the request; a timer of "
-    'the node ends `Rate.sleep`. Reported only where every spin of the program is in sight. '
+    'the node ends `Rate.sleep`. Reported only if every spin of the program is known. '
     'Sources: rclpy 7.1.6 and 9.1.2, `client.py` (`Client.call`), `timer.py` (`Rate.sleep`), '
     '`__init__.py` (`spin_until_future_complete` spins the given node alone). Measured on 7.1.6: '
     'neither an answer nor the end of a rate of 2 Hz within 5 s. The interpreter joins threads '

@@ -23,17 +23,17 @@ HELP = (
 
 
 def find(context: Context) -> Iterator[Hit]:
-    told: set[tuple[str, str | Place]] = set()
+    reported: set[tuple[str, str | Place]] = set()
     for race in races_of(context):
         if race.kind is RaceKind.CLEARED_IN_USE:
-            told |= {(race.first.doer.name, name) for name in race.names}
-            told |= {(name, race.first.place) for name in race.names}
+            reported |= {(race.first.doer.name, name) for name in race.names}
+            reported |= {(name, race.first.place) for name in race.names}
             hit = hit_of(race, help_text=HELP)
             yield hit if race.first.access.later else replace(hit, severity=Severity.NOTE)
     alike: dict[tuple[str, Place, Severity | None], list[Use]] = {}
     for use in _of_themselves(context):
         name = use.access.name
-        if not told & {(use.doer.name, name), (name, use.place)}:
+        if not reported & {(use.doer.name, name), (name, use.place)}:
             alike.setdefault((name, use.place, _severity(use, context)), []).append(use)
     for (_, _, severity), uses in alike.items():
         yield _of_itself(uses, severity, context)

@@ -35,13 +35,13 @@ def find(context: Context) -> Iterator[Hit]:
     late = [callback for callback in context.written if _runs_again(callback, context)]
     yield from (_late_hit(callback, cancel_of(callback), context) for callback in late)
     losing = list(_losing(context))
-    worse = set(_told_of_others(context, LOSING[:2])) if losing else set()
-    any_told = worse | set(_told_of_others(context, LOSING)) if losing else set()
+    worse = set(_reported_of_others(context, LOSING[:2])) if losing else set()
+    any_reported = worse | set(_reported_of_others(context, LOSING)) if losing else set()
     left = (
         race
         for race in losing
         if race.callback not in late
-        and not (any_told if race.is_whole else worse)
+        and not (any_reported if race.is_whole else worse)
         & {(race.use.access.name, race.use.place), (race.use.access.name, race.callback.name)}
     )
     for joint in joined(left, lambda race: _severity(race, context)):
@@ -100,10 +100,10 @@ def _text_of(doer: Callback | Activity) -> str:
     return doer.function.rpartition('.')[2] if doer.function else doer.name
 
 
-def _told_of_others(
+def _reported_of_others(
     context: Context, kinds: Container[RaceKind]
 ) -> Iterator[tuple[str, Place | str]]:
-    """Attributes with the place of the update that is told, and with who else is named there."""
+    """Attributes with the place of the reported update, and with what else is named there."""
     for race in races_of(context):
         if race.kind in kinds:
             for name in race.names:

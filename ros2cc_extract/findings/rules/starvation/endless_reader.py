@@ -1,4 +1,4 @@
-"""CC207: a subscription of an ``AsyncNode`` that feeds itself; the extractor tells."""
+"""CC207: a subscription of an ``AsyncNode`` that feeds itself; found by the extractor."""
 
 from __future__ import annotations
 

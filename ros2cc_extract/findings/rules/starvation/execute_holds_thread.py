@@ -1,4 +1,4 @@
-"""CC203: cancel requests that nobody takes while a goal is executed."""
+"""CC203: cancel requests that are not taken while a goal is executed."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def _of_servers(context: Context) -> Iterator[Hit]:
         is_server = wait.caller.entity is EntityKind.ACTION_SERVER and not wait.has_timeout
         if is_server and context.exclusive_group(wait.caller) is not None:
             execute = _executing(wait, context)
-            if execute is not None and not _tells_it_to_stop(wait, execute):
+            if execute is not None and not _stops_it(wait, execute):
                 first.setdefault(wait.caller.name, (wait, execute))
     for wait, execute in first.values():
         yield _hit_of_server(wait, execute, context)
@@ -55,7 +55,7 @@ def _executing(wait: Wait, context: Context) -> Callback | None:
     return execute if is_own and is_late and execute.blocking else None
 
 
-def _tells_it_to_stop(wait: Wait, execute: Callback) -> bool:
+def _stops_it(wait: Wait, execute: Callback) -> bool:
     """Whether the server has aborted the goal by then, or changed what that may look at."""
     server, end = wait.caller, steps(wait.block)
     if any(act.name == ABORTS for act in server.changes):
@@ -106,7 +106,7 @@ RULE = Rule(
     why='The waitable of the action server takes the cancel request; the executor must run it, '
     'and its only thread executes the goal. A coroutine that yields between its sleeps (`await '
     'asyncio.sleep(0)`, or a bare `yield` behind an `__await__`) lets it run. With two threads '
-    'the cancel request arrives at once, whatever groups are used, because execute runs as a '
+    'the cancel request arrives at once, with any groups, because execute runs as a '
     'task outside them; the goal, cancel and accepted callbacks of a server run in its group, '
     'one after the other. Sources: rclpy 7.1.6 and 9.1.2, `action/server.py` (`notify_execute`), '
     '`executors.py`.',

@@ -55,7 +55,7 @@ def _hit(
         f'group opens {it} is due, so {shown(victims)}, served after '
         f'{"it" if len(busy) == 1 else "them"}, may never run',
         help='give what keeps the group busy a group of its own, or a period longer than its '
-        'work; within a group the order of creation decides who starves',
+        'work; within a group the order of creation decides which one starves',
         subjects=(group.name, *(c.name for c in busy)),
         related=tuple(made_at(*busy, *victims)),
     )

@@ -36,7 +36,7 @@ LISTED = 5
 
 def find(context: Context) -> Iterator[Hit]:
     """One finding per callback, at its longest pause; execute callbacks are CC203's."""
-    told: set[str] = set()
+    reported: set[str] = set()
     timed = (_as_timed(wait, context) for wait in waits_of(context))
     pauses = (wait for wait in timed if _is_pause(wait) or _is_long_wait(wait, context))
     for _name, waits in groupby(pauses, key=lambda wait: wait.caller.name):
@@ -50,10 +50,10 @@ def find(context: Context) -> Iterator[Hit]:
             long = [wait for wait in own if not wait.block.conditional]
         if long:
             hits = list(_hits(tuple({wait.place: wait for wait in long}.values()), context))
-            told |= {subject for hit in hits for subject in hit.subjects}
+            reported |= {subject for hit in hits for subject in hit.subjects}
             yield from hits
     for hold in long_holds(context, LONG_SLEEP_S):
-        if hold.wait.caller.name not in told:
+        if hold.wait.caller.name not in reported:
             yield _of_lock(hold)
 
 
@@ -101,9 +101,9 @@ def _is_sleep(wait: AnyWait) -> bool:
 
 def _is_long_wait(wait: Wait, context: Context) -> bool:
     """
-    Whether it may last so long that a timer misses runs, though somebody else may end it.
+    Whether it may last so long that a timer misses runs, though other code may end it.
 
-    What nobody can end meanwhile other rules tell.
+    What nothing can end meanwhile is reported by other rules.
     """
     is_timed = wait.block.call in _ANSWERED and bool(wait.needs)
     if not is_timed or wait.caller.entity is EntityKind.ACTION_EXECUTE:
@@ -139,7 +139,7 @@ def seconds_of(wait: Wait) -> float:
 
 
 def _held_up(caller: Callback, context: Context) -> tuple[str, tuple[Callback, ...]] | None:
-    """What a callback holds that has no thread or no group of its own, and who waits for that."""
+    """What a callback holds that has no thread or group of its own, and what waits for it."""
     executor = context.unit.executor
     if is_one_thread(executor):
         others = tuple(c for c in context.written if c != caller)
@@ -199,7 +199,7 @@ def _help(executor: Executor) -> str:
 
 
 def _is_rare(wait: Wait, others: Sequence[Callback]) -> bool:
-    """Whether it mostly ends sooner, or nobody waits but the services that rclpy has made."""
+    """Whether it mostly ends sooner, or only the services that rclpy has made wait."""
     return not _is_sleep(wait) and (not others or bool(wait.needs))
 
 

@@ -14,26 +14,26 @@ from ros2cc_extract.verify.results.load import Load, LoadKind, Serving, demands_
 from ros2cc_extract.verify.results.rates import Demand
 
 MOST_RUNS = 0.9
-"""Who gets this share of its runs, or more, is well enough served: our choice."""
+"""A callback with this share of its runs, or more, is served well enough: our choice."""
 
 
 def find(context: Context) -> Iterator[Hit]:
-    """One finding for those that together ask for too much; what others tell of them is enough."""
+    """One finding for those that together ask for too much, unless another rule reports them."""
     demands = demands_of(context.unit)
     victims: dict[tuple[str, ...], list[tuple[Callback, Load]]] = {}
     for callback in context.written:
         load = load_of(context.unit, callback, demands)
         if load.kind is LoadKind.DEGRADED and load.runs is not None and load.runs <= MOST_RUNS:
             victims.setdefault(_heaviest(load.busy, demands), []).append((callback, load))
-    told = {name for hit in _told(context) for name in hit.subjects}
+    reported = {name for hit in _reported_hits(context) for name in hit.subjects}
     for names, kept in victims.items():
         busy = [context.by_name[name] for name in names]
         others = [(callback, load) for callback, load in kept if callback.name not in names]
-        if others and told.isdisjoint(names):
+        if others and reported.isdisjoint(names):
             yield _hit(busy, others, context)
 
 
-def _told(context: Context) -> Iterator[Hit]:
+def _reported_hits(context: Context) -> Iterator[Hit]:
     yield from long_sleep.find(context)
     yield from group_overload.find(context)
 

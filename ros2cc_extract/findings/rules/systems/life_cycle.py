@@ -1,4 +1,4 @@
-"""CC708: a life-cycle node that nobody configures."""
+"""CC708: a life-cycle node that nothing configures."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ros2cc_extract.spec.system.model import End, System
 
 
 def find(system: System) -> Iterator[Hit]:
-    """Not told where the launch itself, or something that is not in sight, may configure it."""
+    """Report nothing where the launch itself, or something unknown, may configure the node."""
     if not system.is_whole or system.changes_states:
         return
     for connection in system.connections:
@@ -40,7 +40,7 @@ RULE = Rule(
     slug='never-configured',
     severity=Severity.WARNING,
     title='A life-cycle node that nobody configures',
-    what='A node of the system has a life cycle, all code of the system is in sight, and nothing '
+    what='A node of the system has a life cycle, all code of the system is known, and nothing '
     'in it asks the service that changes its state; neither does the launch file emit events, and '
     'the node does not change its state itself.',
     why='A life-cycle node starts unconfigured: `on_configure` and `on_activate` run when a '

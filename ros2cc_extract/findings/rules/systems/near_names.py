@@ -1,4 +1,4 @@
-"""CC701: what nobody in the system offers, or wants, though nearly the same name is there."""
+"""CC701: what no node in the system offers, or wants, though nearly the same name is there."""
 
 from __future__ import annotations
 
@@ -57,10 +57,10 @@ def _hit(wanted: Connection, near: list[tuple[Connection, str]], system: System)
     first, why = near[0]
     wants, offers = _VERBS[end.endpoint.kind]
     place = end.endpoint.source or end.process.launched.source
-    where = '' if system.is_whole else ' in sight'
+    nobody = 'nobody' if system.is_whole else 'no known node'
     return Hit(
         place=place,
-        message=f'{wanted.what} {wanted.name} {wants} by {end.node.name}, and nobody{where} '
+        message=f'{wanted.what} {wanted.name} {wants} by {end.node.name}, and {nobody} '
         f'offers it; {first.name} {offers} by {first.ends[0].node.name} and nobody wants that: '
         f'they differ by {why}',
         help=f'let both resolve to one name: write it alike, or remap {wanted.name} to '
@@ -91,8 +91,8 @@ RULE = Rule(
     title='A name that nobody offers, and nearly the same one that nobody wants',
     what='In the system of a launch file a service, action or topic is wanted by one node and '
     'offered by none, while another node offers one that nobody wants and whose name differs by '
-    'the namespace, a slash, a `~`, upper and lower case, or one letter. Whoever waits for it '
-    'waits in vain. A note where code of the system, or a name in it, is not in sight.',
+    'the namespace, a slash, a `~`, upper and lower case, or one letter. Code that waits for it '
+    'waits forever. A note where code of the system, or a name in it, is not known.',
     why='Names are expanded with the namespace and the name of their node and then remapped; '
     'endpoints are connected only where the result is the same. Source: design.ros2.org, '
     '"Topic and Service name mapping to DDS"; rcl (Jazzy), `expand_topic_name.c`, `remap.c`.',

@@ -12,17 +12,17 @@ from ros2cc_extract.spec.system.model import Process, System, SystemNode
 
 def find(system: System) -> Iterator[Hit]:
     known: dict[str, tuple[Process, SystemNode]] = {}
-    told: set[str] = set()
+    reported: set[str] = set()
     for process in system.processes:
         launched = process.launched
         if launched.conditional is not None or not launched.is_beside_others:
             continue
         for node in process.nodes:
-            if not isinstance(node.name, str) or node.name in told:
+            if not isinstance(node.name, str) or node.name in reported:
                 continue
             first = known.setdefault(node.name, (process, node))
             if first[1] is not node:
-                told.add(node.name)
+                reported.add(node.name)
                 yield _hit(node.name, process, *first)
 
 
@@ -50,8 +50,8 @@ RULE = Rule(
     slug='same-node-name',
     severity=Severity.WARNING,
     title='Two nodes with one name',
-    what='Two nodes of the system have the same fully qualified name. Not told of processes that '
-    'a condition may leave out.',
+    what='Two nodes of the system have the same fully qualified name. Not '
+    'reported for processes that a condition may leave out.',
     why='Node names must be unique: parameters, life-cycle services and tools find a node by its '
     'name, and reach one of the two. A name in a launch file is given to every node of the '
     'process. Source: design.ros2.org, "ROS 2 Node naming"; launch_ros (Jazzy), '

@@ -1,4 +1,4 @@
-"""CC704: simulated time that nobody provides."""
+"""CC704: simulated time that no node provides."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _CLOCK = '/clock'
 
 
 def find(system: System) -> Iterator[Hit]:
-    """Not told where something that is not in sight may provide the time."""
+    """Report nothing where something unknown may provide the time."""
     if not system.is_whole or any(_gives_time(end.endpoint) for end in system.ends):
         return
     waiting = [process for process in system.processes if _is_simulated(process)]
@@ -24,7 +24,7 @@ def find(system: System) -> Iterator[Hit]:
             place=waiting[0].launched.source,
             message=f'{names}: {PARAMETER} is true, and nobody in the system publishes {_CLOCK}: '
             'their time stands still, and their timers never fire',
-            help=f'start who publishes {_CLOCK}, or leave {PARAMETER} false',
+            help=f'start a node that publishes {_CLOCK}, or leave {PARAMETER} false',
             subjects=tuple(process.name for process in waiting),
         )
 
@@ -44,7 +44,7 @@ RULE = Rule(
     slug='sim-time-without-clock',
     severity=Severity.WARNING,
     title='Simulated time that nobody provides',
-    what='The launch file sets `use_sim_time` for a node, all code of the system is in sight, and '
+    what='The launch file sets `use_sim_time` for a node, all code of the system is known, and '
     'nothing in it publishes `/clock`.',
     why='A node with simulated time takes its time from `/clock` and starts at zero; without '
     'messages there the time stands still, and timers, rates and `sleep_for` of the node never '
@@ -55,5 +55,5 @@ Node(package='arm', executable='driver', parameters=[{'use_sim_time': True}])   
     good="""\
 Node(package='arm', executable='driver', parameters=[{'use_sim_time': False}])
 """,
-    mend='Start who publishes `/clock`, or leave `use_sim_time` false.',
+    mend='Start a node that publishes `/clock`, or leave `use_sim_time` false.',
 )

@@ -13,7 +13,7 @@ from ros2cc_extract.spec.system.start_up import StartWait, start_circles
 
 
 def find(system: System) -> Iterator[Hit]:
-    """One hit for each circle; a warning where something that is not in sight may offer it too."""
+    """One hit for each circle; a warning if unknown code may offer it too."""
     for circle in start_circles(system):
         yield _hit(circle, is_whole=system.is_whole)
 

@@ -50,7 +50,7 @@ RULE = Rule(
     title='One name with two types',
     what='Two nodes of the system use one topic, service or action with different types.',
     why='Endpoints are matched by name and type; with different types no message, request or goal '
-    'gets through, and nothing tells of it at run time. Source: design.ros2.org, "Topic and '
+    'gets through, and nothing reports it at run time. Source: design.ros2.org, "Topic and '
     'Service name mapping to DDS" (the type is part of what DDS matches).',
     bad="""\
 self.create_publisher(Float32, 'level', 10)                       # in one node

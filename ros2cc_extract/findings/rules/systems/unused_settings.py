@@ -27,9 +27,9 @@ def find(system: System) -> Iterator[Hit]:
 
 
 def _is_known(process: Process) -> bool:
-    """Whether all that the process has in the graph is in sight."""
-    is_told = process.outside is None and bool(process.nodes) and not process.launched.open
-    return is_told and all(
+    """Whether all that the process has in the graph is known."""
+    is_whole = process.outside is None and bool(process.nodes) and not process.launched.open
+    return is_whole and all(
         node.open is None
         and node.naming is not None
         and all(isinstance(end.written, str) for end in node.endpoints)
@@ -102,7 +102,7 @@ RULE = Rule(
     severity=Severity.NOTE,
     title='Remap or parameter of the launch file that no code uses',
     what='A launch file remaps a name that no node of the process uses, or sets a parameter that '
-    'none of them declares or asks for, and all code of the process is in sight. A warning where '
+    'none of them declares or asks for, and all code of the process is known. A warning where '
     'nearly the same name is used, a note elsewhere.',
     why='A rule that matches nothing is ignored without a word, and so is a parameter that a node '
     'does not declare. Source: design.ros2.org, "Remapping Names"; rclpy 7.1.6, `node.py` '

@@ -1,7 +1,7 @@
 """
-The two answers of an action, told apart where processes are put into one unit.
+The two answers of an action, distinguished where processes are put into one unit.
 
-Whoever sends a goal and waits for its end waits for two answers, one behind the other: that the
+Code that sends a goal and waits for its end waits for two answers, one after the other: that the
 goal is accepted, which the action server gives in its own group, and the result, which is there
 once the execute callback has ended. Each is as the answer of a service. Source: rclpy 7.1.6,
 ``action/client.py`` (``send_goal`` calls ``send_goal_async`` and then ``get_result_async``),
@@ -32,7 +32,7 @@ _GOAL, _RESULT = 'goal of {}', 'result of {}'
 
 
 def with_phases(parts: Sequence[Spec]) -> list[Spec]:
-    """Tell them apart for each action of which both ends are followed; others stay as they are."""
+    """Distinguish them for each action whose ends are both followed; others stay as they are."""
     keys = _keys(parts)
     sure = frozenset(key for part in parts for key in _sure_goals(part))
     certain = frozenset(key for part in parts for key in _sure_results(part)) - sure
@@ -55,7 +55,7 @@ def with_phases(parts: Sequence[Spec]) -> list[Spec]:
 
 
 def _sure_goals(part: Spec) -> Iterator[object]:
-    """The actions whose goals are accepted whatever else waits: their group is never held."""
+    """The actions whose goals are always accepted: their group is never held."""
     if len(part.executor.threads) < 2:
         return
     held = {each.group for each in part.callbacks if each.blocking or each.locks}
@@ -65,7 +65,7 @@ def _sure_goals(part: Spec) -> Iterator[object]:
 
 
 def _sure_results(part: Spec) -> Iterator[object]:
-    """The actions whose execute callback waits for nobody."""
+    """The actions whose execute callback waits for nothing."""
     if len(part.executor.threads) < 2:
         return
     for callback in part.callbacks:
@@ -75,7 +75,7 @@ def _sure_results(part: Spec) -> Iterator[object]:
 
 
 def _keys(parts: Sequence[Spec]) -> frozenset[str]:
-    """The actions that can be told apart."""
+    """The actions whose answers can be distinguished."""
     callbacks = [callback for part in parts for callback in part.callbacks]
     executed = _named(callbacks, EntityKind.ACTION_EXECUTE)
     served = _named(callbacks, EntityKind.ACTION_SERVER)
@@ -85,13 +85,13 @@ def _keys(parts: Sequence[Spec]) -> frozenset[str]:
 
 
 def _named(callbacks: Iterable[Callback], kind: EntityKind) -> set[str]:
-    """Those of which there is one."""
+    """Those that exist once."""
     found = [c.key for c in callbacks if c.entity is kind and isinstance(c.key, str)]
     return {key for key in found if found.count(key) == 1}
 
 
 def _asked_otherwise(part: Spec, clients: Mapping[str, Callback]) -> Iterable[str]:
-    """The actions for one of whose answers alone somebody waits, whichever that is."""
+    """The actions of which code waits for one answer only, whichever that is."""
     doers: tuple[Callback | Activity, ...] = (*part.callbacks, *part.activities)
     for block in (block for doer in doers for block in doer.blocking):
         client = clients.get(block.on) if isinstance(block.on, str) else None
@@ -104,10 +104,10 @@ def _split(
     part: Spec, keys: frozenset[str], second: Mapping[str, str], left_out: Collection[str]
 ) -> Spec:
     """
-    A unit with its ends of ``keys`` told apart.
+    Return a unit with the ends of ``keys`` split.
 
     :param second: what takes the second answer, by what takes the first.
-    :param left_out: of both, those for whose answers nobody needs to wait.
+    :param left_out: of both, those whose answers need no wait.
     """
     taken = {*part.names(), *second.values()}
     callbacks: list[Callback] = []

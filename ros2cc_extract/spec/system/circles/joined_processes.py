@@ -3,7 +3,7 @@ Processes that wait for each other in a circle, as one unit.
 
 A unit's verdict rests on the assumption that what is outside of it answers. Where a process needs
 another one, and that one needs the first, neither verdict can bear the other: these processes, and
-no others, are put into one network. What they call each other is told by the graph; parts of
+no others, are put into one network. The graph says what they call each other; parts of
 one name have that of their process before it.
 """
 
@@ -82,7 +82,7 @@ def circles_in(system: System) -> Iterator[list[Process]]:
     """
     Sets of several processes, each of which needs each other one.
 
-    A message is needed of a circle only where nobody beside it sends on the topic.
+    A message is needed of a circle only if no other process sends on the topic.
     """
     offered = {
         (each.what, each.name): {
@@ -121,15 +121,15 @@ def _circles(
         for name, keys in needed.items()
     }
     reached = {name: _reached(name, ahead) for name in ahead}
-    told: set[str] = set()
+    done: set[str] = set()
     for process in processes:
         mine = [
             other
             for other in processes
             if other.name in reached[process.name] and process.name in reached[other.name]
         ]
-        if len(mine) > 1 and process.name not in told:
-            told |= {each.name for each in mine}
+        if len(mine) > 1 and process.name not in done:
+            done |= {each.name for each in mine}
             yield mine
 
 
@@ -148,7 +148,7 @@ class ServiceWait:
     """
     A wait without a time-out for the answer of a service or an action, or for a message.
 
-    :param client: who takes it.
+    :param client: what takes it.
     :param name: resolved.
     """
 
@@ -241,7 +241,7 @@ def _why_not(process: Process) -> Unknown | None:
 
 def _joined(circle: Sequence[Process], sent: Collection[str]) -> Joined | Unknown | None:
     """
-    One unit of all; why there is none, or ``None`` where no executor needs itself by them.
+    One unit of all; or why it cannot be made; ``None`` if no executor needs itself by them.
 
     :param sent: topics on which only these processes send.
     """
@@ -271,7 +271,7 @@ def _joined(circle: Sequence[Process], sent: Collection[str]) -> Joined | Unknow
 
 
 def _open_answers(whole: Spec) -> Iterator[Unknown]:
-    """Waits for answers of which the model of all does not say who gives them."""
+    """Waits for answers whose server the model of all does not have."""
     doers: tuple[Callback | Activity, ...] = (*whole.callbacks, *whole.activities)
     for block in (block for doer in doers for block in doer.blocking):
         clients = asked_by(block, whole.callbacks)

@@ -1,8 +1,8 @@
 """
 Messages by which one process ends a wait of another one, where these are put into one unit.
 
-Alone, a unit takes it that messages come. Where it is known who sends what alone ends a wait, it
-waits first until one of these has got as far, and those for the messages that they wait for.
+A unit alone assumes that messages come. If all senders of what ends a wait are known, it
+lasts until one of them has come to its send; they in turn wait for their own messages.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def ended_by_messages(block: Blocking, callbacks: Mapping[str, Callback]) -> tup
 
 @once
 def senders_in(system: System) -> dict[str, frozenset[str]]:
-    """The processes that send on each topic, where all who may are known, and callbacks do it."""
+    """The processes that send on each topic, if all that may are known, and callbacks do it."""
     if not system.is_whole:
         return {}
     found: dict[str, frozenset[str]] = {}
@@ -68,7 +68,7 @@ def _doers(units: Iterable[Spec]) -> Iterator[Doer]:
 
 def with_messages(parts: Sequence[Spec], topics: Collection[str]) -> list[Spec]:
     """
-    Let waits that messages end wait for who sends them.
+    Let waits that messages end wait for the senders.
 
     :param topics: of which all senders are among ``parts``, under their names in the system.
     """
@@ -95,7 +95,7 @@ def _sending(
     """
     Waits for messages, before each of which there is the one that lets its only sender run.
 
-    :param asked: topics on which whoever waits has sent before.
+    :param asked: topics on which the waiting code has sent before.
     """
     found: list[Blocking] = []
     known = set(asked)

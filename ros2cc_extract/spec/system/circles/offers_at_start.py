@@ -1,7 +1,7 @@
 """
 Services and actions that are there for certain once the system has started.
 
-Alone, a callback that waits in ``wait_for_service`` waits for somebody outside. In a system whose
+Alone, a callback that waits in ``wait_for_service`` waits for a node outside. In a system whose
 processes offer it in their set-up, which comes to its end, that wait is over in some time.
 """
 
@@ -27,7 +27,7 @@ _Offers = Mapping[tuple[EndpointKind, str], str]
 
 
 def with_offers(system: System) -> System:
-    """The system with each wait until somebody is there as one that ends, where somebody is."""
+    """The system with each wait for a server as one that ends, if there is a server."""
     offers = dict(_offers(system))
     return replace(system, processes=tuple(_process(each, offers) for each in system.processes))
 

@@ -1,7 +1,7 @@
 """
 How many requests at a time the clients of one program may have on their way to a service.
 
-Each client may have one, whatever the others do; those that only wait for their answers have no
+Each client may have one, whatever the others do; those that only wait for answers have no
 more than their callers can wait at once. What no unit alone shows stands in the unit of the
 service.
 """
@@ -18,7 +18,7 @@ SEVERAL = 2
 
 
 def with_askers(units: Sequence[Spec]) -> list[Spec]:
-    """The units of a program, services with the number of those who may ask at once."""
+    """The units of a program, services with the number of clients that may ask at once."""
 
     def asked(callback: Callback, unit: Spec) -> Callback:
         if callback.entity is not EntityKind.SERVICE or not isinstance(callback.key, str):
@@ -34,7 +34,7 @@ def with_askers(units: Sequence[Spec]) -> list[Spec]:
 
 
 def _run_together(one: Spec, other: Spec) -> bool:
-    """Whether a unit is spun whatever branch is taken, or in the one of the other."""
+    """Whether a unit is spun on every branch, or on that of the other."""
     mark, branch = one.executor.alternative, one.executor.branch
     is_own = one is other or mark is None
     is_own = is_own or (mark, branch) == (other.executor.alternative, other.executor.branch)
@@ -62,7 +62,7 @@ def _count(client: Callback) -> int:
 
 
 def _callers(client: str, unit: Spec) -> Iterator[str]:
-    """Who waits for its answers: of one mutually exclusive group only one at a time."""
+    """How many wait for its answers: of one mutually exclusive group only one at a time."""
     for callback in unit.callbacks:
         if _waits_for(client, callback.blocking):
             group = unit.group_of(callback)

@@ -1,4 +1,4 @@
-"""Waits of units as others, one or several for each, with all that is told by their numbers."""
+"""Waits of units as others, one or several for each, with all that refers to their numbers."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """
 Waits of joined units that end for sure, so that a model need not show them.
 
-Whoever waits for nobody comes to its end. An answer comes for sure where whoever gives it, and
-whoever takes it, come to their ends, and all others of their groups do: nothing keeps them from
+A callback that waits for nothing comes to its end. An answer is sure if its giver, and
+its taker, come to their ends, and all others of their groups do: nothing keeps them from
 running, since joined units have threads enough. What waits only for such answers comes to its end
 too, and so on. No circle is among them: each rests on those that were found before it.
 """

@@ -1,5 +1,5 @@
 /*
-there is no deadlock: whatever arrives can be served
+there is no deadlock: all that arrives can be served
 */
 A[] (deadlock imply cb_all_served())
 

@@ -1,4 +1,4 @@
-"""Locks that all take in one order, whoever comes first, are no deadlock, and are given back."""
+"""Locks that all take in one order are no deadlock, and are given back."""
 
 from __future__ import annotations
 

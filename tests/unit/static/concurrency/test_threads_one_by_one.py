@@ -1,4 +1,4 @@
-"""Threads of which a test lets only one run at a time, told from those that may meet."""
+"""Threads of which a test lets only one run at a time, as distinct from those that may meet."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Functions, events and futures that go through a queue to whoever takes them out."""
+"""Functions, events and futures that go through a queue to its consumer."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def test_a_last_item_that_is_none_changes_nothing() -> None:
     ('queue', 'work', 'more'),
     [
         ('multiprocessing.Queue()', SET_JOB, 'pass'),  # others have copies
-        ('queue.Queue()', 'pass', 'pass'),  # nothing in sight takes anything
+        ('queue.Queue()', 'pass', 'pass'),  # no known code takes anything
         ('queue.Queue()', SET_JOB, 'connect(self.jobs)'),
     ],
 )

@@ -1,4 +1,4 @@
-"""Reads that give what there is: of sockets that are told so, and of regular files."""
+"""Reads that give what there is: of sockets that are set so, and of regular files."""
 
 from __future__ import annotations
 

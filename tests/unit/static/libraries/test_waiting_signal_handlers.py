@@ -44,7 +44,7 @@ IDLE = 'pass'
 MAIN = 'rclpy.spin(node)'
 ASIDE = 'threading.Thread(target=rclpy.spin, args=(node,)).start()\nsignal.pause()'
 START = 'a handler of a signal keeps the main thread, and '
-UNSPUN = 'nothing in sight spins node meanwhile'
+UNSPUN = 'no known code spins node meanwhile'
 
 
 def reasons(works: str, handles: str, spins: str) -> list[str]:

@@ -135,7 +135,7 @@ def test_what_is_not_known_is_named_with_its_place_and_the_rest_is_read() -> Non
             "'robot' of program 'talk' is not module:function",
             5,
         ),
-        ('print(entry_points)', 'no call of setup is in sight', 0),
+        ('print(entry_points)', 'no call of setup is found', 0),
         ('setup(entry_points=', "syntax error: '(' was never closed", 0),
         ("setup(entry_points='nothing here')", None, 5),
     ],

@@ -121,7 +121,7 @@ def test_the_rest_of_a_program_is_scanned_without_a_file_of_newer_syntax(tmp_pat
 
 
 def test_program_without_end_is_cut_off_once(tmp_path: Path) -> None:
-    """Callbacks share one budget: what is left over is missing, and one place tells why."""
+    """Callbacks share one budget: what is left over is missing, and one place says why."""
     callbacks = ''.join(
         f'    def on_{n}(self):\n' + '        self.x = 1\n' * 1_000 for n in range(40)
     )

@@ -1,4 +1,4 @@
-"""What ``isinstance`` has told of an attribute or a name counts in the arms of the test."""
+"""What ``isinstance`` has shown about an attribute or a name counts in the arms of the test."""
 
 from __future__ import annotations
 

@@ -107,7 +107,7 @@ rclpy.spin(Book())
 
 
 def test_objects_that_each_run_makes_anew_come_to_an_end(tmp_path: Path) -> None:
-    """Those that hold functions and objects as others before tell nothing new."""
+    """Those that hold functions and objects as others before add nothing new."""
     (tmp_path / 'node.py').write_text(ASKED)
     (unit,) = (u for u in scan([tmp_path]).units if u.executor.spun)
     assert 'entities' not in {fact.fact for fact in unit.unresolved}

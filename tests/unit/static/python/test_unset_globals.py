@@ -1,4 +1,4 @@
-"""A global that is None in sight and set elsewhere is one thing, wherever it is used."""
+"""A global that known code only sets to None is one thing, wherever it is used."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Waits of code that no callback runs: they are in the specification, decided or told."""
+"""Waits of code that no callback runs: they are in the specification, decided or reported."""
 
 from __future__ import annotations
 

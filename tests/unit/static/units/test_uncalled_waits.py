@@ -1,4 +1,4 @@
-"""Waits of methods that nothing in sight calls, as handlers of pages and keys, are reported."""
+"""Waits of methods that no known code calls, as handlers of pages and keys, are reported."""
 
 from __future__ import annotations
 

@@ -128,5 +128,5 @@ def test_behind_a_branch_it_is_undecided(set_up: str, begin: str) -> None:
     (unit,) = scan.units
     reasons = {each.escapes.reason for each in unit.set_up if isinstance(each.escapes, Unknown)}
     assert reasons == {
-        'thread begin itself waits in client.call, and nothing in sight spins node meanwhile'
+        'thread begin itself waits in client.call, and no known code spins node meanwhile'
     }

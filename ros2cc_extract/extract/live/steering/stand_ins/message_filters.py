@@ -17,7 +17,7 @@ from typing import Any
 
 
 class SimpleFilter:
-    """Passes on to whoever has registered."""
+    """Passes messages on to all registered callbacks."""
 
     def __init__(self) -> None:
         self.callbacks: dict[int, tuple[Callable[..., Any], tuple[Any, ...]]] = {}

@@ -4,7 +4,7 @@ Stand-ins for interfaces that are not installed: types that rclpy takes, whose f
 A type of rclpy needs code in C for its messages (``rosidl_generator_py``). A stand-in borrows
 that of an installed type without fields, so what goes over the wire is empty, and the other side
 sees that type. What rclpy hands to a callback is an object of the borrowed type; it is taught to
-have every field. A name in capitals is a constant, of which no two are equal. Actions need an
+have every field. A name in capitals is a constant; no two are equal. Actions need an
 installed action, which only test packages bring.
 
 Runs inside the user's process: the standard library, and interfaces that are installed.
@@ -28,7 +28,7 @@ _constants: dict[str, Constant] = {}
 
 
 class Constant(int):
-    """A constant of a type that is not installed; nobody knows its number."""
+    """A constant of a type that is not installed; its number is unknown."""
 
 
 def constants() -> list[Constant]:
@@ -69,7 +69,7 @@ def _kind_over(base: Any) -> Any:
     """
     Give the type of a type whose names in capitals are constants.
 
-    Whatever is of the borrowed type is one of it too: what has arrived is passed on.
+    Every object of the borrowed type is an instance too: what has arrived is passed on.
     """
 
     def missing(_cls: Any, name: str) -> Constant:

@@ -1,8 +1,8 @@
 """
 Stand-ins for modules that are not installed, such as the driver of a device.
 
-A stand-in has every name; what is called gives another one, and nothing happens. Whatever the
-program makes of it, nobody has shown that it does so with the device. Interfaces that are not
+A stand-in has every name; what is called gives another one, and nothing happens. What the
+program does with it does not show what it does with the device. Interfaces that are not
 installed become types that rclpy takes (``stub_interfaces.py``), and of some modules it is known
 what they do.
 
@@ -41,7 +41,7 @@ _NEVER = ('rclpy', 'sitecustomize', 'usercustomize', '_ros2cc_live', 'ros2cc_ext
 
 
 def offer_stubs() -> None:
-    """Find a stand-in for what nobody else finds."""
+    """Find a stand-in for what no other finder finds."""
     sys.meta_path.append(_Finder())
 
 
@@ -159,7 +159,7 @@ def _names_to_fill(frame: Any) -> int:
 
 class _Field(_Stub):
     """
-    A field of a message: as a message that nobody has filled has it, or a value of the program.
+    A field of a message: as a message has it that was not filled, or a value of the program.
 
     By turns it is equal to each of the texts and numbers that the program compares with, and to
     each of the constants of its type, and is true or not: a callback that is called again and

@@ -27,7 +27,7 @@ def note_held(
 
 
 def home_of(world: ConcurrentWorld, owner: Value, attribute: str) -> Home | None:
-    """Who held first the collection that an attribute holds for good, and how it is called."""
+    """The first holder of the collection that an attribute holds for good, and its name."""
     if not isinstance(owner, Instance) or not world.homes:
         return None
     held = owner.slots.get(attribute)
@@ -43,13 +43,13 @@ def homes_of(world: ConcurrentWorld, value: Value) -> list[Home]:
 
 
 def object_name(owner: Instance | Class, cls: Class) -> str:
-    """The class; helper objects of one class are told apart, nodes are by their callbacks."""
+    """The class; helper objects of one class get numbers, nodes are distinguished by callbacks."""
     is_helper = isinstance(owner, Instance) and owner.state is None and owner.number > 1
     return f'{cls.name}#{owner.number}' if is_helper else cls.name  # type: ignore[union-attr]
 
 
 def is_reassigned(owner: Instance, attribute: str) -> bool:
-    """Whether a method stores another one there: then the names part, nobody knows when."""
+    """Whether a method stores another one there: then the names part at an unknown time."""
     return any(
         isinstance(cls, Class) and attribute in reassigned_attributes(cls.node)
         for cls in owner.mro

@@ -1,11 +1,11 @@
 """
 Flags by which a callback keeps others out: ``if self.busy: return``, then ``self.busy = True``.
 
-Whoever has found a flag down and put it up holds it, as a lock, until it is put down again; a
+Code that finds a flag down and puts it up holds it, as a lock, until it is put down again; a
 done-callback takes over what its maker holds, and the execute callback of an action server what
 the goal callback holds wherever it accepts; where that has only found a flag down, the execute
 callback may put it up. Whether the test and the setting are one piece, and
-nobody else puts the flag down, is for the reader of the accesses to say.
+no other code puts the flag down, is decided by the reader of the accesses.
 """
 
 from __future__ import annotations
@@ -51,9 +51,9 @@ def note_test(
     constant: Constant,
 ) -> None:
     """
-    An ``if`` tells where the flags are down that it asks for, alone or each for itself.
+    Note where the flags that an ``if`` asks for are down, together or each on its own.
 
-    A state may stand for a flag: who has found that it is a constant, and stores another one, or
+    A state may stand for a flag: code that finds it to be a constant, and stores another one, or
     the other way round.
 
     :param test: that of ``node``, see ``behind_getters``.
@@ -183,7 +183,7 @@ def text_of(value: Value) -> str | None:
 
 
 def put_up(world: ConcurrentWorld, name: str) -> None:
-    """``name`` is stored; who has found it down and stores something holds it from here."""
+    """Note that ``name`` is stored; code that found it down and stores something holds it now."""
     flag = name + FLAG
     is_down = flag in _found_down(world) or (flag in world.still_down and not has_waited(world))
     if is_down and flag not in world.held and _is_up(world, name):
@@ -192,12 +192,12 @@ def put_up(world: ConcurrentWorld, name: str) -> None:
 
 
 def has_waited(world: ConcurrentWorld) -> bool:
-    """Whether who is followed may have waited by now."""
+    """Whether the followed code may have waited by now."""
     return world.effects is not None and world.effects.behind is not None
 
 
 def put_down(world: ConcurrentWorld, name: str) -> None:
-    """``name`` was stored; who has put down its flag holds it no more."""
+    """Note that ``name`` was stored; code that puts down its flag no longer holds it."""
     stored = world.reading.stored
     states = world.flag_tests.get(name)
     if states:
@@ -229,7 +229,7 @@ def _states_found(world: ConcurrentWorld, name: str) -> list[str]:
 
 
 def _is_up_for(stored: Value | None, found: str) -> bool:
-    """Whether who finds so by a test does not find it when ``stored`` is there."""
+    """Whether code that finds so by a test does not find it when ``stored`` is there."""
     texts = [text_of(option) for option in options_of(stored)] if stored is not None else [None]
     if found.startswith(FOUND_THIS):
         return None not in texts and found.removeprefix(FOUND_THIS) not in texts

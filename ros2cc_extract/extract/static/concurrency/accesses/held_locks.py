@@ -29,7 +29,7 @@ def held_over(world: ConcurrentWorld, on: Value | None) -> tuple[str, ...]:
     """
     Name the locks that are held while ``on`` is waited for, outermost first.
 
-    Left out is who does not keep others out for certain: semaphores, locks of the program's own,
+    What may not keep others out is omitted: semaphores, locks of the program's own,
     locks that were taken with a time-out. A condition is given back while it is waited for.
     """
     tried = {act.name for act in world.effects.locks if act.tries} if world.effects else set()
@@ -54,7 +54,7 @@ def is_counter(world: ConcurrentWorld, thing: Instance) -> bool:
     """
     Whether a semaphore begins with nothing to take: others must give first, so it is no lock.
 
-    What the set-up gives is there before anybody takes it.
+    What the set-up gives is there before any callback takes it.
     """
     if thing.slots.get(INITIAL) != Const(0):
         return False

@@ -1,8 +1,8 @@
 """
-Threads of which only one runs at a time, as each begins only when the one before has ended.
+Threads that run one at a time, as each begins only when the one before has ended.
 
 ``if self.worker is not None and self.worker.is_alive(): return``, and then a new thread is stored
-there and started. Who tests and starts must do so in one piece: under one lock, or in callbacks
+there and started. Test and start must be in one piece: under one lock, or in callbacks
 of one exclusive group, which ``units/threads_in_turn.py`` knows.
 """
 
@@ -33,7 +33,7 @@ from ros2cc_extract.spec.model import When
 
 
 def note_test(machine: ConcurrentMachine, node: ast.If, place: Place, frame: Frame) -> None:
-    """An ``if`` tells where the thread of an attribute is not alive."""
+    """Note where an ``if`` shows that the thread of an attribute is not alive."""
     world, steps = machine.world, steps_of(node)
     if world.effects is None:
         return
@@ -126,7 +126,7 @@ def _is_of_set_up(world: ConcurrentWorld, value: Value) -> bool:
 
 
 def note_begun(world: ConcurrentWorld, state: ActivityState, runner: Value | None) -> None:
-    """A thread is started, behind a test that tells that the one before has ended, or not."""
+    """Note a started thread, and whether a test showed first that the one before has ended."""
     now = _holds(world)
     starts = {
         kept: (world.activity or world.current, frozenset(holds.items() & now.items()))

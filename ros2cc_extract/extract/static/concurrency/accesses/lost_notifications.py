@@ -1,8 +1,8 @@
 """
-Whether somebody waits already when a condition is notified.
+Whether a wait has begun already when a condition is notified.
 
-A condition forgets a ``notify`` that comes while nobody waits (CPython 3.12, ``threading.py``,
-``Condition.notify``). It is heard by who has asked, in the same hold of the lock, for what the
+A condition forgets a ``notify`` that comes while nothing waits (CPython 3.12, ``threading.py``,
+``Condition.notify``). It reaches code that has asked, in the same hold of the lock, for what the
 notifier writes, or has begun in that hold what notifies: that cannot go on before the wait.
 """
 
@@ -80,7 +80,7 @@ def note_begun(world: ConcurrentWorld, place: Place) -> None:
 
 
 def note_made(world: ConcurrentWorld, kind: str, place: Place) -> None:
-    """Who runs now makes an entity at ``place``, or the same one once more."""
+    """Note that the running code makes an entity at ``place``, or the same one once more."""
     if world.effects is None:
         return
     made = world.effects.changes
@@ -103,7 +103,7 @@ def guard_of(world: ConcurrentWorld, condition: Instance) -> Guard:
         (n for n in world.held if any(each is lock for each, _ in locks_named(n, world))), None
     )
     if name is None:
-        # Somebody else has taken it, in a way that was not followed.
+        # Other code has taken it, in a way that was not followed.
         return Guard(None, frozenset(), is_open=True)
     hold = name, world.holds.get(name, 0)
     reading = world.reading
@@ -118,7 +118,7 @@ def guard_of(world: ConcurrentWorld, condition: Instance) -> Guard:
 @dataclass(frozen=True)
 class Notifier:
     """
-    Who notifies a condition, and what it writes.
+    The code that notifies a condition, and what it writes.
 
     :param place: where its thread is started, or its entity made.
     :param wrote: names of all that it writes.
@@ -132,18 +132,18 @@ class Notifier:
 
 
 def is_heard(guard: Guard, notifiers: list[Notifier]) -> bool:
-    """Whether what ends the wait cannot be lost before it, or nobody can say so."""
+    """Whether what ends the wait cannot be lost before it, or that is unknown."""
     begun = (each for each in notifiers if not each.waking.conditional)
     if guard.hold is None or any(each.place in guard.begun for each in begun):
         return True
-    if any(guard.names & _told_by(each, guard.hold[0]) for each in notifiers):
+    if any(guard.names & _written_by(each, guard.hold[0]) for each in notifiers):
         return True
     if any(guard.names & each.wrote for each in notifiers):
         return False
     return guard.is_open
 
 
-def _told_by(notifier: Notifier, lock: str) -> frozenset[str]:
+def _written_by(notifier: Notifier, lock: str) -> frozenset[str]:
     """What it has written by then, and in the same hold of the lock of the condition."""
     holds = (hold for hold in notifier.waking.holds if hold[0] == lock)
-    return notifier.waking.told.union(*(notifier.stored.get(hold, ()) for hold in holds))
+    return notifier.waking.written.union(*(notifier.stored.get(hold, ()) for hold in holds))

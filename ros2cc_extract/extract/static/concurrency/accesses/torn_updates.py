@@ -4,7 +4,7 @@ Objects that are changed piece by piece and published as a whole, as a message i
 ``self.state.position[wheel] = x`` leaves ``self.state`` the same object. ``publish(self.state)``
 copies all its fields at once under the global lock of CPython (rclpy 7.1.6 and 9.1.2,
 ``publisher.py``; generated ``*_s.c`` of the message packages), so that a message is torn where
-another thread stands between two changes. An object that is made anew each time is none of these.
+another thread stands between two changes. An object that is made anew each time does not count.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def _object(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> str | N
 
 
 def _whole(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> str | None:
-    """The attribute that holds the object of ``node``, or one of which it is a part."""
+    """The attribute that holds the object of ``node``, or a whole that it is part of."""
     for _ in range(_DEPTH):
         if isinstance(node, ast.Subscript):
             node = node.value

@@ -32,7 +32,7 @@ def ways_that_keep(function: FunctionNode, lock: str, suffix: str = '') -> tuple
     :param lock: text of the lock's expression, ``self.lock``.
     :param suffix: of the methods: ``_read`` for ``acquire_read`` and ``release_read``.
     :return: nothing where the function never gives the lock back: another one may; and nothing
-        where it gives it back first: whoever calls it holds the lock, and wants it held again. Nor
+        where it gives it back first: its caller holds the lock, and wants it held again. Nor
         where one loop takes several locks, and another one gives them back.
     """
     walk = _Walk(lock, suffix)
@@ -155,7 +155,7 @@ def locks_given_back(body: Sequence[ast.stmt], world: ConcurrentWorld) -> tuple[
 
 
 def note_kept_locks(world: ConcurrentWorld) -> None:
-    """Tell of every followed function that keeps a lock on some way out."""
+    """Note every followed function that keeps a lock on some way out."""
     if not world.locks:
         return
     for function in world.called.values():
@@ -168,14 +168,14 @@ def note_kept_locks(world: ConcurrentWorld) -> None:
 
 def _taken_in(node: FunctionNode, world: ConcurrentWorld) -> Iterator[tuple[ast.Call, str, str]]:
     """The locks that a function takes by a call, each once, with the end of the method's name."""
-    told: set[tuple[str, str]] = set()
+    reported: set[tuple[str, str]] = set()
     for part in ast.walk(node):
         if isinstance(part, ast.Call) and isinstance(part.func, ast.Attribute):
             method, lock = part.func.attr, ast.unparse(part.func.value)
             key = lock, method.removeprefix(_TAKES)
             is_lock = lock.rpartition('.')[2] in world.locks
-            if method.startswith(_TAKES) and is_lock and key not in told:
-                told.add(key)
+            if method.startswith(_TAKES) and is_lock and key not in reported:
+                reported.add(key)
                 yield part, *key
 
 

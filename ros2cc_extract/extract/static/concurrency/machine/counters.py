@@ -9,7 +9,7 @@ from ros2cc_extract.extract.static.python.values.values import Class, Const, Ins
 from ros2cc_extract.light_dataclasses import dataclass
 
 MOST = 3
-"""A model counts no more writes than these: who gives so many gives more."""
+"""A model counts no more writes than these: a giver of so many gives more."""
 
 
 @dataclass(frozen=True)
@@ -43,8 +43,8 @@ class Rise:
         """
         How many writes are missing; ``None`` where that is not known.
 
-        :param first: what is stored there before anybody writes.
-        :param mine: how many writes lie behind whoever waits.
+        :param first: what is stored there before the first write.
+        :param mine: how many writes the waiting code has made before.
         """
         values: list[float] = [value.value for value in first if isinstance(value, Const)]
         by = {step.by for step in steps}

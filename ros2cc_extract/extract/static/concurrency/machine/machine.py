@@ -47,7 +47,7 @@ class ConcurrentMachine(Machine, ABC):
         place: Place,
         spun: tuple[Instance, ...] = (),
     ) -> None:
-        """A loop goes on until somebody else has written what its test reads."""
+        """A loop goes on until other code has written what its test reads."""
 
     @abstractmethod
     def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
@@ -77,9 +77,9 @@ class ConcurrentMachine(Machine, ABC):
         """
         The task by which that loop runs ``coroutine``; ``None`` where there is no such loop.
 
-        :param loop: to which somebody hands it over, who may block until it is done.
+        :param loop: the loop that it is handed over to; the giver may block until it is done.
         """
 
     @abstractmethod
     def add_task(self, future: Instance, callback: Value, place: Place) -> None:
-        """Whoever takes the answer that ``future`` stands for runs ``callback`` then."""
+        """Note that the code that takes the answer of ``future`` then runs ``callback``."""

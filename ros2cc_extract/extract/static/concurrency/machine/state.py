@@ -1,7 +1,7 @@
 """
 What runs concurrently, and what a run leaves behind of it: threads, locks, waits, accesses.
 
-Who runs as a callback is for the model of a library to say; here each is a ``Doer``.
+The model of a library says what runs as a callback; here each is a ``Doer``.
 """
 
 from __future__ import annotations
@@ -37,22 +37,22 @@ class ActivityState(Doer):
     Code that runs on a thread which no executor has.
 
     :param place: where it is started.
-    :param runners: the threads or futures that stand for it; who waits on one waits for its end.
-    :param starts: who starts it.
+    :param runners: the threads or futures that stand for it; a wait on one is a wait for its end.
+    :param starts: what starts it.
     :param endless: its loop that nothing ends, the end of rclpy included.
-    :param again: where it starts itself anew in each run, whatever branches are taken.
+    :param again: where it starts itself anew in each run, on every branch.
     :param is_daemon: the same; ``None`` where that is not known.
     :param spins: how many spins the set-up has called before its start.
     :param ends_first: the set-up waits for its end before it spins again.
     :param serves: it spins an executor; forever where it ``is_executor``.
     :param nodes: identities of the nodes that it touches, ``things`` those of other objects.
     :param turns: equal for those that have one thread between them.
-    :param pool: whose threads run it.
+    :param pool: the pool whose threads run it.
     :param site: equal for one start that is met again.
     :param wakes: what it does to end waits, as it was seen in the set-up.
     :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it.
     :param alone: the attributes it is kept in, of which each start has found that the thread there
-        has ended; with who starts it, and the holds of locks from that test on.
+        has ended; with what starts it, and the holds of locks from that test on.
     :param left: attributes that it has itself emptied by now.
     """
 
@@ -157,10 +157,10 @@ class OutsideWait:
 @dataclass(frozen=True, eq=False)
 class SetUpWait:
     """
-    A wait of code that no callback runs, as ``outside`` tells it too.
+    A wait of code that no callback runs, as it is in ``outside`` too.
 
     :param block: with references to what it waits on.
-    :param uncalled: the function, which nobody in sight calls, that leads there.
+    :param uncalled: the function without a known caller that leads there.
     :param by: the thread that waits; one that only spins has no waits of its own.
     :param is_late: the spin is over.
     :param in_handler: a handler of a signal waits, on the main thread.
@@ -185,27 +185,27 @@ class ConcurrentWorld(World):
     :param wakings: what is done to an object that others may wait on, by its identity.
     :param asked: marks of questions that the function has asked.
     :param made_at: identities of the objects that others may wait on, by the place they come from.
-    :param other_writes: data that is written by what nobody in sight calls, with its name, or
+    :param other_writes: data that is written by what no known code calls, with its name, or
         after the spin has ended, with ``None``.
     :param writes_beside: data that the set-up writes when it has started a thread, or has spun.
-    :param cleared: events that somebody clears: who and where, and how many entities there were.
+    :param cleared: events that code clears: which and where, and how many entities there were.
     :param by_loop: a loop of asyncio does what is followed, in its own thread.
-    :param loop_runs: who runs one; ``loop_touches`` what is done to what belongs to one, and
+    :param loop_runs: what runs one; ``loop_touches`` what is done to what belongs to one, and
         ``awaited_of_loops`` the queues and events that some coroutine awaits.
     :param lost_wakes: what ends waits for an attribute of that name of what is not known.
     :param given: objects that were handed to code which is not followed, with the reason.
     :param kept_in: the attribute that an object others may wait on was stored in last, and
         ``met_meanwhile`` what such attributes held while the set-up waited for it.
     :param left_callbacks: of futures that were not complete, see ``done_callbacks.py``; and
-        ``completed`` the identities of those futures that somebody completes.
+        ``completed`` the identities of those futures that code completes.
     :param activities: all of them, in the order of their start.
-    :param told: how many of them were followed for what they do.
+    :param followed_count: how many of them were followed for what they do.
     :param loop: where the loop of asyncio begins that runs the set-up.
     :param limit: how long each wait of a coroutine may last where ``asyncio.timeout`` is entered.
     :param forked: where the program splits off a child that runs its own text.
     :param on_loop: a callback runs a coroutine by asyncio, which holds its thread.
-    :param retelling: one is followed for what it does; what it makes is known already.
-    :param readers: who reads the pipes of a child process, by the place where that is made.
+    :param second_pass: one is followed for what it does; what it makes is known already.
+    :param readers: what reads the pipes of a child process, by the place where that is made.
     :param queues: what is put into queues, see ``queue_items.py``.
     :param homes: the attribute that first held a collection, see ``collection_aliases.py``.
     :param objects: the attribute that holds an object of unknown kind for good, by the object.
@@ -220,11 +220,11 @@ class ConcurrentWorld(World):
         then put it up, see ``flag_locks.py``.
     :param ended: attributes whose thread has ended, by the step of the path, and the holds then.
     :param claims: the threads that were stored in such an attribute since, with those holds.
-    :param unguarded: attributes of which a thread is stored, or forgotten, without such a test.
+    :param unguarded: attributes where a thread is stored, or forgotten, without such a test.
     :param found_down: flags that the last function found down wherever it turned no goal down.
     :param still_down: those that were down when the goal was accepted which is executed.
     :param outside: what code waits for that is no callback.
-    :param set_up: its waits as the specification tells them, each once.
+    :param set_up: its waits as they are in the specification, each once.
     :param asked_until: calls in the tests of loops that only their answer ends.
     :param retried: calls that a loop tries again and again until they raise no error.
     :param asked_outside: calls by which a library asks others outside whether something is over.
@@ -248,8 +248,8 @@ class ConcurrentWorld(World):
     lost_wakes: dict[tuple[str, Word], list[Place]] = field(default_factory=dict)
     given: dict[int, Unknown] = field(default_factory=dict)
     activities: list[ActivityState] = field(default_factory=list)
-    told: int = 0
-    retelling: bool = False
+    followed_count: int = 0
+    second_pass: bool = False
     accepted: tuple[str, ...] = ()
     flag_tests: dict[str, set[str]] = field(default_factory=dict)
     ended: dict[tuple[Place, int], dict[KeptIn, Holds]] = field(default_factory=dict)
@@ -311,7 +311,7 @@ class ConcurrentWorld(World):
 
     @property
     def spins_begun(self) -> int:
-        """How often the program has let callbacks run, in whatever thread."""
+        """How often the program has let callbacks run, in any thread."""
         return 0
 
     @property
@@ -329,5 +329,5 @@ class ConcurrentWorld(World):
         self.before_loop = self.main_spins
 
     def served_within(self, file: str, first: int, last: int) -> tuple[Instance, ...]:
-        """Whose callbacks the lines of a file let run."""
+        """The nodes whose callbacks the lines of a file let run."""
         return ()

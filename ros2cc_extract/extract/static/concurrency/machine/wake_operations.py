@@ -48,7 +48,7 @@ class Guard:
 
     :param hold: of the lock of the condition; ``None`` where that was not followed.
     :param names: of the data that was asked for in that hold.
-    :param is_open: something was asked for besides.
+    :param is_open: something else was asked for too.
     :param begun: where something is made or started in that hold.
     """
 
@@ -93,19 +93,19 @@ class Waking:
     """
     An operation that may end a wait of others.
 
-    :param by: a callback or an activity; ``None`` for the set-up, and for what nobody in sight
+    :param by: a callback or an activity; ``None`` for the set-up, and for what no known code
         calls.
     :param behind: the last wait of ``by`` before it, see ``EffectLog.behind``.
     :param spins: of the set-up, how many spins of its own thread are over, but for those of a loop
         in which it stands itself.
-    :param uncalled: in whose text, which nobody in sight calls, it stands.
-    :param is_counted: it happens once, whatever branches are taken.
-    :param in_loop: it stands in a loop of which nobody knows how often it goes round.
+    :param uncalled: the function without a known caller in whose text it stands.
+    :param is_counted: it happens once, on every branch.
+    :param in_loop: it stands in a loop with an unknown number of rounds.
     :param unless_done: branches skip it only where it has been done before.
     :param repeats: it stands in a loop.
-    :param told: names of the data that ``by`` has written by then.
+    :param written: names of the data that ``by`` has written by then.
     :param holds: the locks that are held then.
-    :param is_sign: what is put may tell who takes it to stop: it is a constant, or an object.
+    :param is_sign: what is put may be a sign to stop for the consumer: a constant, or an object.
     """
 
     word: Word
@@ -121,14 +121,14 @@ class Waking:
     unless_done: bool = False
     in_loop: bool = False
     repeats: bool = False
-    told: frozenset[str] = frozenset()
+    written: frozenset[str] = frozenset()
     holds: frozenset[Hold] = frozenset()
     is_sign: bool = False
 
 
 class DataRef(EntityRef):
     """
-    Stands for plain data that a loop waits for somebody else to write.
+    Stands for plain data that a loop waits for other code to write.
 
     :param names: what the test reads; ``holders`` the objects and attributes where that is.
     :param before: what the loop's own callback has written before the loop, and where.
@@ -151,7 +151,7 @@ class ClockRef(EntityRef):
 
 
 class TopicRef(EntityRef):
-    """Stands for the topic of which somebody waits for a message."""
+    """Stands for the topic of an awaited message."""
 
     number = 0
 

@@ -73,8 +73,8 @@ class Waits(ConcurrentMachine):
     def note_endless(self, node: ast.While, place: Place) -> None:
         """A loop was followed that nothing but the end of the program ends."""
         world = self.world
-        is_telling = world.activity is not None and world.effects is not None
-        if is_telling and is_endless(node) and world.path == world.callback_path:
+        is_followed = world.activity is not None and world.effects is not None
+        if is_followed and is_endless(node) and world.path == world.callback_path:
             state = world.activity
             assert state is not None
             state.loops = True
@@ -152,7 +152,7 @@ class Waits(ConcurrentMachine):
         place: Place,
         spun: tuple[Instance, ...] = (),
     ) -> None:
-        """A loop goes on until somebody else has written what its test reads."""
+        """A loop goes on until other code has written what its test reads."""
         world, effects = self.world, self.world.effects
         block = Blocking(
             call=name,
@@ -328,7 +328,7 @@ class Waits(ConcurrentMachine):
             in_loop=world.open_loops > 0,
             unless_done=doer is not None and _only_unless_done(world, thing, word),
             repeats=bool(world.reading.loops),
-            told=frozenset(access.name for access in (world.effects or EffectLog()).writes),
+            written=frozenset(access.name for access in (world.effects or EffectLog()).writes),
             holds=lost_notifications.holds_of(world),
             is_sign=is_sign,
         )

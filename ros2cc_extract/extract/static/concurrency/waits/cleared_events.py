@@ -1,5 +1,5 @@
 """
-Events that are cleared behind the message that brings who sets them.
+Events that are cleared after the message whose answer sets them.
 
 ``publish(); event.clear(); event.wait()``: what the message brings may have come before the
 ``clear``, comes once for each message, and is wiped out. Measured with rclpy 7.1.6 and 9.1.2.

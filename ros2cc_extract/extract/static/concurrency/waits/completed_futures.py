@@ -1,8 +1,8 @@
 """
-Futures that are done where their result is asked for, as the text tells.
+Futures that the text shows to be done where their result is asked for.
 
 ``if future.done(): future.result()`` and ``await future`` before ``future.result()`` do not wait,
-whatever the future is: none is ever undone (Python 3.11, library reference,
+for any future: none is ever undone (Python 3.11, library reference,
 ``concurrent.futures``, ``asyncio``; rclpy 7.1.6, ``task.py``).
 """
 

@@ -1,4 +1,4 @@
-"""Waits of code that is no callback: they are noted here, and told when all was followed."""
+"""Waits of code that is no callback: noted here, and since when all was followed."""
 
 from __future__ import annotations
 
@@ -73,9 +73,9 @@ def note(
 
 
 def note_in_loop(world: ConcurrentWorld, awaited: Value, place: Place) -> None:
-    """Tell of a callback that asyncio runs and that awaits what only an executor understands."""
+    """Report a callback that asyncio runs and that awaits what only an executor understands."""
     state = awaited.state if isinstance(awaited, Instance) else None
-    if isinstance(state, PlainState) and state.kind in _FUTURES and not world.retelling:
+    if isinstance(state, PlainState) and state.kind in _FUTURES and not world.second_pass:
         world.diagnostics.append(_awaited_by_asyncio(place))
 
 
@@ -119,16 +119,16 @@ def note_cancelled(world: ConcurrentWorld, name: str, on: Value | None) -> None:
 def note_loop(world: ConcurrentWorld, names: set[str], place: Place) -> None:
     """Remember that the set-up looks again and again whether data of ``names`` has changed."""
     is_set_up = world.when is When.START and not world.after_spin and not world.in_thread
-    if is_set_up and world.is_program and not world.in_callback and not world.retelling:
+    if is_set_up and world.is_program and not world.in_callback and not world.second_pass:
         begun = None if world.open_loops else world.spins_begun
         wait = OutsideWait('a polling loop', None, place, in_thread=False, begun=begun)
         world.outside.append(replace(wait, names=frozenset(names)))
 
 
-def forget_awaits(world: ConcurrentWorld, told: int) -> None:
-    """Who runs a coroutine that nobody in sight calls is not known: an executor may do so."""
-    late = [each for each in world.diagnostics[told:] if each.slug != _ASYNCIO_AWAIT]
-    world.diagnostics[told:] = late
+def forget_awaits(world: ConcurrentWorld, since: int) -> None:
+    """Note a coroutine without a known caller: an executor may run it."""
+    late = [each for each in world.diagnostics[since:] if each.slug != _ASYNCIO_AWAIT]
+    world.diagnostics[since:] = late
 
 
 def _awaited_by_asyncio(place: Place) -> Diagnostic:
@@ -146,7 +146,7 @@ def _awaited_by_asyncio(place: Place) -> Diagnostic:
 def note_join(world: ConcurrentWorld, thread: Value, place: Place) -> None:
     """The program, which no executor runs, waits for the end of ``thread``."""
     is_set_up = world.effects is None or world.activity is not None
-    if isinstance(thread, Instance) and world.is_program and is_set_up and not world.retelling:
+    if isinstance(thread, Instance) and world.is_program and is_set_up and not world.second_pass:
         is_late = world.after_spin or bool(world.spins_begun)
         wait = OutsideWait(JOIN, thread, place, world.in_thread, (), is_late, tuple(world.over))
         world.outside.append(replace(wait, path=world.path))
@@ -179,7 +179,7 @@ def note_in_set_up(
     :param caller: the outermost function that is followed.
     :param spun: the nodes that it spins meanwhile.
     """
-    if world.retelling:
+    if world.second_pass:
         return
     number = block.on.number if isinstance(block.on, EntityRef) else str(block.on)
     key = (block.call, block.source, id(thing) if thing is not None else number)

@@ -1,5 +1,5 @@
 """
-Who may end a wait and is not in sight: functions that nobody calls, objects that are not known.
+Unknown code that may end a wait: functions without a caller, unknown objects.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def uncalled_wakers(
     world: ConcurrentWorld, name: str, words: frozenset[Word], made: Place | None
 ) -> Unknown | None:
     """
-    Why somebody who is not in sight may end a wait for what is stored under ``name``.
+    Why unknown code may end a wait for what is stored under ``name``.
 
     :param made: where it is made; a variable of that name means it in the same file.
     """
@@ -83,12 +83,12 @@ def uncalled_wakers(
             is_called = operation.function in world.called
             if is_meant and not is_called and not _is_dead(world, operation.outer):
                 at = Place(file, operation.line, operation.column)
-                return Unknown(f'nothing in sight calls {operation.called}, which ends it', at)
+                return Unknown(f'no known code calls {operation.called}, which ends it', at)
     return None
 
 
 def _is_dead(world: ConcurrentWorld, function: str) -> bool:
-    """Whether a whole program is in sight and no text of it has the name of the function."""
+    """Whether the whole program is known and no text of it has the name of the function."""
     if not function or not world.is_program:
         return False
     texts = [noted_on(tree, 'mentioned', _mentioned) for tree, _ in world.files]
@@ -120,7 +120,7 @@ def _mentioned(tree: ast.Module) -> frozenset[str]:
 
 
 def _lost(world: ConcurrentWorld, name: str, word: Word) -> list[Place]:
-    """Where a wait for that name may be ended, and it was never known whose."""
+    """Where a wait for that name may be ended, on an object that was never known."""
     places = world.lost_wakes.get((name, word), ())
     known = {waking.place for each in world.wakings.values() for waking in each} if places else ()
     return [place for place in places if place not in known]
@@ -136,11 +136,11 @@ def waking_of(call: ast.expr | str | None) -> tuple[str, Word] | None:
 
 
 def data_is_written_elsewhere(world: ConcurrentWorld, names: frozenset[str]) -> Unknown | None:
-    """Why somebody who is not in sight may write the data of ``names`` (``Class.attribute``)."""
+    """Why unknown code may write the data of ``names`` (``Class.attribute``)."""
     for name in sorted(names):
         by, place = world.other_writes.get(name, (None, None))
         if by is not None:
-            return Unknown(f'nothing in sight calls {by}, which writes it', place)
+            return Unknown(f'no known code calls {by}, which writes it', place)
     found = (
         uncalled_wakers(world, name.rpartition('.')[2], frozenset({Word.WRITE}), None)
         for name in names
@@ -193,7 +193,7 @@ def _of_function(node: _Function, scopes: tuple[_Function, ...]) -> Iterator[_Op
             yield _Operation(written.attr, Word.WRITE, *at, id(node), called, *outer)
         if not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Load):
             continue
-        # Called there, or handed on to somebody who calls it.
+        # Called there, or handed on to code that calls it.
         word, owner = _METHODS.get(part.attr), part.value
         name = owner.attr if isinstance(owner, ast.Attribute) else getattr(owner, 'id', None)
         if word is not None and name is not None:

@@ -3,7 +3,7 @@ What callbacks meet in attributes while the set-up waits, and what it replaces a
 
 ``main`` waits for ``self.observed``, puts a new future there, and waits for that one. Callbacks
 are followed when all of ``main`` has been, but they run while it waits, and find there what it
-waits for. Of what comes from one place the first is enough: who ends the wait for one of them
+waits for. Of what comes from one place the first is enough: what ends the wait for one of them
 ends it for all (``units/waits.py``, ``wakings_of``).
 """
 

@@ -31,7 +31,7 @@ class WaitRow:
     One kind of wait.
 
     :param ended_by: operations on the object that end it.
-    :param always: who may end it beside them, whoever else does.
+    :param always: who may always end it, in addition to others.
     :param unless_asked: it does not wait where it was asked before whether it would.
     :param rival: what others do that makes the answer to that question false.
     :param raises: by which exception it says that its time is over, on some release.

@@ -1,4 +1,4 @@
-"""Loops that do little but wait until somebody else has done something, as their text tells."""
+"""Loops whose text shows that they do little but wait until other code has done something."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def awaits_each_round(loop: ast.While) -> bool:
 
 
 def _always_awaits(statements: Sequence[ast.stmt]) -> bool:
-    """Whether one of ``statements`` awaits whatever branches are taken inside of it."""
+    """Whether one of ``statements`` awaits on every branch inside of it."""
     return any(_awaits(_heads(each)) or _always_awaits(_bodies(each)) for each in statements)
 
 
@@ -86,7 +86,7 @@ def call_of_loop(loop: ast.While, call: str, activity: ActivityState | None) -> 
     """
     How a loop that others end is called: one in which a thread works waits for nobody.
 
-    Whoever joins the thread waits for its end all the same.
+    Code that joins the thread waits for its end all the same.
     """
     works = activity is not None and activity.kind is not ActivityKind.MAIN and not is_idle(loop)
     return WORKING_LOOP if works else call

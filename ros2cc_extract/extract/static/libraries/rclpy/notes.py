@@ -1,4 +1,4 @@
-"""What a machine that models rclpy notes, and knows of objects of which only their use is seen."""
+"""What a machine that models rclpy notes, and knows of objects whose use alone is seen."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class RosNotes(StandardBlocks, RosMachine):
     def other_member(
         self, cls: Library, receiver: Value | None, name: str, place: Place
     ) -> Value | None:
-        """``node.executor``, of a class of which nobody has said more than its name."""
+        """``node.executor``, of a class that is known only by name."""
         if not isinstance(receiver, Instance) or not isinstance(receiver.state, NodeState):
             return None
         if not cls.name.startswith('rclpy.') or name != 'executor':
@@ -85,7 +85,7 @@ class RosNotes(StandardBlocks, RosMachine):
     def member_of_unknown_base(
         self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
     ) -> Value | None:
-        """A node's method on a class whose base is not in sight makes it a node."""
+        """A node's method on a class with an unknown base makes it a node."""
         if not isinstance(receiver, Instance):
             return None
         if name in _NODE_ONLY:
@@ -134,7 +134,7 @@ class RosNotes(StandardBlocks, RosMachine):
         return result_of(self, future, place)
 
     def takes_over(self, function: Native, arguments: list[Value], place: Place) -> bool:
-        """Whoever is given a spin runs it, with what is handed along."""
+        """Whether it is a spin: code that is given one runs it, with what is handed along."""
         if function.name not in _SPINS:
             return False
         run_in_thread(self, function, Call(place, arguments))
@@ -208,7 +208,7 @@ class RosNotes(StandardBlocks, RosMachine):
         end_operations.note_raised(self, error, place)
 
     def note_call(self, function: Value, node: ast.Call, frame: Frame) -> None:
-        """``goal_handle.abort()`` of a goal that is not known: one that runs is told to stop."""
+        """``goal_handle.abort()`` of an unknown goal: it stops one that runs."""
         super().note_call(function, node, frame)
         effects, called = self.world.effects, node.func
         is_abort = isinstance(called, ast.Attribute) and called.attr == ABORTS
@@ -224,7 +224,7 @@ class RosNotes(StandardBlocks, RosMachine):
         return clock is not None
 
     def note_clock(self, name: str, clock: EntityState, place: Place) -> None:
-        """Somebody waits for time that ``clock`` moves."""
+        """Note a wait for time that ``clock`` moves."""
         if self.world.effects is not None:
             reference = ClockRef('/clock')
             reference.number = id(clock)

@@ -49,7 +49,7 @@ IN_TASK = '__in_task__'
 STARTED = '__started__'
 """Slot of a task that is no future of its own."""
 LOOSE = '__loose__'
-"""Slot of a task that nobody keeps but who has made it."""
+"""Slot of a task that only its maker keeps."""
 
 _LOOP = 'asyncio.AbstractEventLoop'
 _FUTURE = 'asyncio.Future'
@@ -67,7 +67,7 @@ def _by_loop(machine: ConcurrentMachine) -> Iterator[None]:
 
 
 def _note_touch(machine: ConcurrentMachine, thing: Value, how: str, call: Call) -> None:
-    """Something of a loop is touched; which thread does that is told after the run."""
+    """Note that something of a loop is touched; the thread that does it is found after the run."""
     world = machine.world
     doer = world.activity or (world.current if world.effects is not None else None)
     if world.by_loop or _ASKED in world.asked or doer is None or not isinstance(thing, Instance):
@@ -97,7 +97,7 @@ def _run_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 def _note_run(machine: ConcurrentMachine, loop: Value) -> None:
     world = machine.world
-    if not world.retelling and not world.in_callback:
+    if not world.second_pass and not world.in_callback:
         world.loop_runs.append(LoopRun(loop, world.thread))
 
 
@@ -120,7 +120,7 @@ def make_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _create_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Nobody keeps the task but who gets it here."""
+    """Mark a task that only its receiver here keeps."""
     task = make_task(machine, receiver, call)
     if isinstance(task, Instance):
         task.slots[LOOSE] = NONE
@@ -175,7 +175,7 @@ def _call_soon(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value
 
 
 def _call_soon_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """The loop calls it, which whoever hands it over need not wait for."""
+    """Let the loop call it; the code that hands it over need not wait for that."""
     if call.args:
         with _by_loop(machine):
             machine.call(call.args[0], Call(call.place, call.args[1:]))
@@ -183,7 +183,7 @@ def _call_soon_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Cal
 
 
 def _is_running(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Who asks has another way for a loop that runs."""
+    """Return an open answer: code that asks has another way for a loop that runs."""
     machine.world.asked.add(_ASKED)
     return machine.mystery('whether a loop runs', call.place, 'is_running()')
 
@@ -219,7 +219,7 @@ def _touching(how: str, word: Word) -> Handler:
 
 
 def _awaitable(name: str, word: Word | None = None) -> Handler:
-    """A coroutine that waits for ``receiver`` once somebody awaits it, and then does ``word``."""
+    """A coroutine that waits for ``receiver`` once it is awaited, and then does ``word``."""
 
     def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         def awaited(machine: ConcurrentMachine, _: Value, inner: Call) -> Value:

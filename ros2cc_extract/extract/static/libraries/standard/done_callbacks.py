@@ -67,9 +67,9 @@ _AROUND = (
 @dataclass(frozen=True, eq=False)
 class _Left:
     """
-    A callback that whoever completes its future runs.
+    A callback that is run by the code that completes its future.
 
-    :param around: of the world, who has added it, and where.
+    :param around: state of the world: what has added it, and where.
     """
 
     future: Instance
@@ -86,17 +86,17 @@ def init_future(machine: ConcurrentMachine, receiver: Value, call: Call) -> Valu
 
 
 def begin_anew(machine: ConcurrentMachine, receiver: Instance) -> None:
-    """A callback that is followed again makes its future again, and nobody has completed that."""
+    """A callback that is followed again makes its future again, which is not completed."""
     machine.store.write(receiver, _IS_DONE, _PENDING)
 
 
 def may_be_done(machine: ConcurrentMachine, future: Instance) -> None:
-    """What completes it runs beside whoever has got it."""
+    """Note that what completes it runs beside the code that has got it."""
     machine.store.write(future, _IS_DONE, _EITHER)
 
 
 def add_done_callback(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Run it at once where the future is done, else keep it for who completes the future."""
+    """Run it at once if the future is done, else keep it for code that completes the future."""
     assert isinstance(receiver, Instance)
     callback = call.argument(0, 'callback') or call.argument(0, 'fn')
     if not isinstance(receiver.state, PlainState) or callback is None:
@@ -113,7 +113,7 @@ def add_done_callback(machine: ConcurrentMachine, receiver: Value, call: Call) -
 
 
 def _note_later(machine: ConcurrentMachine, future: Instance, callback: Value, call: Call) -> None:
-    """Who is not in sight may complete it: an executor by a task, a thread of a pool itself."""
+    """Note that unknown code may complete it: an executor by a task, a thread of a pool itself."""
     state = future.state
     if state.kind == OF_POOL and future.mro[-1] == _BY_HAND:
         machine.world.escaped.append((callback, call.place))
@@ -128,7 +128,7 @@ def _note_later(machine: ConcurrentMachine, future: Instance, callback: Value, c
 
 
 def add_left(machine: ConcurrentMachine) -> None:
-    """Make tasks of those that nobody in sight runs: whoever does so has a thread of his own."""
+    """Make tasks of those that no known code runs: what runs them has a thread of its own."""
     world = machine.world
     before = _around(world)
     left, world.left_callbacks = world.left_callbacks, []
@@ -177,7 +177,7 @@ def _run_all(machine: ConcurrentMachine, future: Instance, place: Place, *, is_s
     held = future.slots.get(_CALLBACKS, ABSENT)
     callbacks = options_of(held)
     if world.current is not None and world.activity is None:
-        note_found(world, future, _CALLBACKS, held)  # who adds one later makes it run here
+        note_found(world, future, _CALLBACKS, held)  # code that adds one later makes it run here
     if _is_done(future) == _DONE:
         return
     machine.store.write(future, _IS_DONE, _EITHER if world.in_thread or not is_sure else _DONE)

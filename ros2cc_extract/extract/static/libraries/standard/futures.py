@@ -1,5 +1,5 @@
 """
-Pools of the standard library and what is handed to them: futures, and who waits for them.
+Pools of the standard library and what is handed to them: futures, and code that waits for them.
 
 Sources: CPython 3.12, ``concurrent/futures/_base.py`` (``wait``, ``as_completed``, ``map``,
 leaving a ``with`` waits for all), ``asyncio/tasks.py`` (``run_coroutine_threadsafe``).
@@ -122,14 +122,14 @@ def _init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _keep(machine: ConcurrentMachine, pool: Value, future: Value) -> None:
-    """Who waits for the end of a pool waits for all that was handed to it."""
+    """Wait for the end of a pool: for all that was handed to it."""
     if isinstance(pool, Instance):
         kept = pool.slots.get(_HANDED_OVER, ())
         machine.store.write(pool, _HANDED_OVER, (*kept, future))
 
 
 def _map(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Its results wait for all calls, when somebody goes over them."""
+    """Its results wait for all calls, when code goes over them."""
     results = machine.future(call.place, OF_POOL)
     results.hint = 'map'
     if call.args:

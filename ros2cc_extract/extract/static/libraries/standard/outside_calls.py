@@ -65,7 +65,7 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
         limit = slots.get(_TIMEOUT, slots.get(_LIMIT))
         if row.takes_limit and isinstance(limit, Value):
             timeout = limit
-        is_at_once = (name == _CONNECT and _DATAGRAM in slots) or _is_told_so(call)
+        is_at_once = (name == _CONNECT and _DATAGRAM in slots) or _is_set_so(call)
         is_at_once = (is_at_once and row.takes_limit) or _is_killed(machine, name, call.place)
         is_at_once = is_at_once or (isinstance(timeout, Const) and timeout.value == 0)
         is_at_once = is_at_once or is_short(name, call)
@@ -78,14 +78,14 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
         if name == _CONNECTED:
             return _socket(machine, call, timeout)
         if name == _ACCEPT:
-            address = machine.mystery('address of who connects', call.place)
+            address = machine.mystery('address of the peer', call.place)
             return Sequence((_socket(machine, call, None), address), 'tuple')
         return machine.mystery(f'result of {name}', call.place, f'{name}(…)')
 
     return handler
 
 
-def _is_told_so(call: Call) -> bool:
+def _is_set_so(call: Call) -> bool:
     """Whether a read takes the flag by which it does not wait (``recv(2)``)."""
     given = (*call.args, *call.keywords.values())
     return any(isinstance(each, Name) and each.name == _AT_ONCE for each in given)
@@ -113,9 +113,9 @@ def _is_killed(machine: ConcurrentMachine, name: str, place: Place) -> bool:
 
 def _is_there(machine: ConcurrentMachine, name: str) -> bool:
     """
-    Whether something is read of which the program has asked whether it is there.
+    Whether something is read after the program has asked whether it is there.
 
-    ``select`` tells before a read that it will not wait, and ``in_waiting`` how much a port has;
+    ``select`` shows before a read that it will not wait, and ``in_waiting`` what a port has;
     a regular file, as ``S_ISREG`` knows one, and a descriptor that ``os.set_blocking`` or
     ``fcntl`` has changed give what there is. A function may have another one ask,
     or its caller does: ``if self.has_key():``.
@@ -176,7 +176,7 @@ def _never_blocks(tree: ast.Module) -> bool:
 
 
 def _fork(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Parent and child go on with the same text, the child with whatever others have locked."""
+    """Parent and child go on with the same text, the child with all that others have locked."""
     machine.world.forked = machine.world.forked or call.place
     return machine.mystery('which of two processes goes on', call.place, 'os.fork()')
 
@@ -200,7 +200,7 @@ def _blocks(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _kind_of_socket(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Nobody answers the ``connect`` of a datagram socket (``socket`` documentation)."""
+    """Nothing answers the ``connect`` of a datagram socket (``socket`` documentation)."""
     kind = call.argument(1, 'type')
     if isinstance(receiver, Instance) and isinstance(kind, Name) and kind.name == _DATAGRAM:
         machine.store.write(receiver, _DATAGRAM, kind)

@@ -23,7 +23,7 @@ WORKERS = '__workers__'
 def why_no_thread(
     mine: Sequence[Waking], doer: object, name: Callable[[object], str | None]
 ) -> Unknown | None:
-    """Why who would end a wait of a task may get no thread of the pool."""
+    """Why the code that would end a wait of a task may get no thread of the pool."""
     if not isinstance(doer, ActivityState) or doer.pool is None or doer.turns is not None:
         return None
     others = [waking.by for waking in mine if waking.by is not doer]
@@ -53,7 +53,7 @@ def _may_fill(task: ActivityState, pool: Instance) -> bool:
 
 
 def _waits_for(starter: object, task: ActivityState) -> bool:
-    """Whether who starts it goes on only when it has ended."""
+    """Whether the code that starts it goes on only when it has ended."""
     runners = {id(runner) for runner in task.runners}
     effects = getattr(starter, 'effects', None) or EffectLog()
     return any(

@@ -1,7 +1,7 @@
 """
-What is put into the queues of a program, for whoever takes it out.
+What is put into the queues of a program, for the code that takes it out.
 
-Which item somebody gets is not known: it is one of all that are put in. Until all is followed
+Which item a consumer gets is not known: it is one of all that are put in. Until all is followed
 each item is taken to be given away; at the end that is taken back of those that everybody in
 sight who takes items has met.
 """
@@ -41,7 +41,7 @@ class Contents:
     """
     Of one queue.
 
-    :param taken: how many items had been put in when somebody took one last, by the place.
+    :param taken: how many items had been put in when one was taken last, by the place.
     """
 
     queue: Instance
@@ -50,7 +50,7 @@ class Contents:
 
     @property
     def met(self) -> int:
-        """How many items all have met who take some."""
+        """How many items all consumers have met."""
         return min(self.taken.values(), default=0)
 
 
@@ -82,7 +82,7 @@ def taken_out(machine: ConcurrentMachine, queue: Value, call: Call) -> Value | N
 
 
 def take_back(world: ConcurrentWorld) -> None:
-    """When all was followed: who takes items has met them, and ends what he ends."""
+    """When all was followed: consumers have met the items, and end what they end."""
     queues = list(world.queues.values())
     lost = {id(each.queue): 0 if id(each.queue) in world.given else each.met for each in queues}
     left = [item for each in queues for item in each.items[lost[id(each.queue)] :]]
@@ -95,7 +95,7 @@ def take_back(world: ConcurrentWorld) -> None:
 
 
 def _is_of_threads(queue: Instance) -> bool:
-    """Those of other processes give copies, and those of loops are taken from by who awaits."""
+    """Queues of other processes give copies; code that awaits takes from those of loops."""
     return isinstance(queue.cls, Library) and queue.cls.name.startswith('queue.')
 
 

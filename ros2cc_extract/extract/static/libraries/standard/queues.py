@@ -1,4 +1,4 @@
-"""Queues of the standard library: who puts, who gets, and who waits for the other."""
+"""Queues of the standard library: producers, consumers, and which waits for the other."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def may_be_full(queue: Instance) -> bool:
 
 
 def _waits(machine: ConcurrentMachine, call: Call, position: int) -> bool:
-    """``block`` is true unless it is said otherwise; who tries until it succeeds waits as well."""
+    """``block`` is true by default; code that tries until it succeeds waits as well."""
     block = call.argument(position, 'block')
     is_refused = isinstance(block, Const) and not block.value
     return not is_refused or call.place in machine.world.retried
@@ -67,7 +67,7 @@ def _put(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _is_sign(call: Call) -> bool:
-    """Whether what is put may mean the end to whoever takes it."""
+    """Whether what is put may mean the end to its consumer."""
     items = (*call.args[:1], *call.keywords.values())
     return any(isinstance(o, (Const, Instance)) for item in items for o in options_of(item))
 
@@ -110,7 +110,7 @@ def _is_full(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _size(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Who has asked how much there is, be it in a test or for a loop, takes no more than that."""
+    """Code that has asked for the size, in a test or for a loop, takes no more than that."""
     machine.world.ready |= {(receiver, word) for word in (Word.PUT, Word.GET, Word.DONE)}
     return machine.mystery('how full a queue is', call.place, 'queue')
 

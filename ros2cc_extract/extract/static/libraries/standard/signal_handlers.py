@@ -54,12 +54,12 @@ def note_followed(world: ConcurrentWorld, handler: ActivityState) -> None:
     for block in handler.effects.blocking:
         place = block.source or handler.place
         wait = OutsideWait(block.call, None, place, in_thread=False)
-        told = SetUpWait(replace(block, chain=()), wait, in_handler=True)
-        world.set_up.setdefault((block.call, place, handler.place), told)
+        own = SetUpWait(replace(block, chain=()), wait, in_handler=True)
+        world.set_up.setdefault((block.call, place, handler.place), own)
 
 
 def _beside(handler: Value, place: Place) -> ActivityState:
-    """It is followed like a thread, and is none: nothing starts it, and no unit has it."""
+    """It is followed like a thread, but is not one: nothing starts it, and no unit has it."""
     unknown = Unknown('what the system gives a handler of a signal', place)
     return ActivityState(ActivityKind.THREAD, place, handler, Call(place, more=unknown))
 

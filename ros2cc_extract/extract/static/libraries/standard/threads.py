@@ -207,7 +207,7 @@ def _acquire(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _take(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Who gives it back himself takes it as a lock, else it is a wait for others."""
+    """Code that gives it back itself takes it as a lock, else it is a wait for others."""
     if _waits_for_it(call):
         timeout = call.argument(1, 'timeout')
         machine.note_blocking('Semaphore.acquire', receiver, timeout, call.place)
@@ -220,7 +220,7 @@ def _give(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _meet(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Whoever comes to a barrier is waited for by the others."""
+    """Note that code comes to a barrier, where the others wait for it."""
     assert isinstance(receiver, Instance)
     machine.note_wake(receiver, Word.ARRIVE, call.place)
     timeout = call.argument(0, 'timeout') or receiver.slots.get(_PATIENCE)
@@ -229,14 +229,14 @@ def _meet(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _break_off(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Whoever waits at the barrier gets an error (``threading.py``, ``Barrier.abort``)."""
+    """Raise an error in all that wait at the barrier (``threading.py``, ``Barrier.abort``)."""
     why = Unknown('somebody breaks it off', call.place)
     machine.world.given.setdefault(id(receiver), why)
     return NONE
 
 
 def _barrier_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Its time-out is that of all who wait at it."""
+    """Its time-out is that of all waits at it."""
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, INITIAL, call.argument(0, 'parties') or NONE)
     machine.store.write(receiver, _PATIENCE, call.argument(2, 'timeout') or NONE)
@@ -286,7 +286,7 @@ def _keep_flag(machine: ConcurrentMachine, event: Instance, flag: Const) -> None
 
 
 def _is_set(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Known in the set-up alone, before anything else runs, and where nobody ever sets it."""
+    """Known in the set-up alone, before anything else runs, and if it is never set."""
     assert isinstance(receiver, Instance)
     world, flag = machine.world, receiver.slots.get(_IS_SET)
     if is_never_set(world, receiver):

@@ -1,4 +1,4 @@
-"""Events that nobody sets: their ``is_set`` gives ``False`` forever."""
+"""Events that are never set: their ``is_set`` gives ``False`` forever."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def is_never_set(world: ConcurrentWorld, event: Instance) -> bool:
     """
     Whether its name stands nowhere in the program but where it is asked, waited for or cleared.
 
-    Then nobody has it by another name either. Who sets it may use its name in a text, too.
+    Then no code has it by another name either. Code that sets it may use its name in a text, too.
     """
     name = event.hint
     if name is None or not world.is_program or event.born is not None:

@@ -25,10 +25,10 @@ def if_expression(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
     holds = open_tests.decide(machine, node.test, frame)
     if holds is not None:
         return machine.evaluate(node.body if holds else node.orelse, frame)
-    told = path_facts.told_by(machine.world.tested)
+    implied = path_facts.implied_by(machine.world.tested)
 
     def arm(body: ast.expr, *, holds: bool) -> Value:
-        machine.world.assume(told, holds=holds)
+        machine.world.assume(implied, holds=holds)
         return machine.evaluate(body, frame)
 
     arms = (partial(arm, node.body, holds=True), partial(arm, node.orelse, holds=False))
@@ -44,7 +44,7 @@ def boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
         before = machine.world.changing
         value = machine.evaluate(part, frame)
         values.append(value)
-        machine.world.assume(path_facts.told_by(value), holds=not stops_on)
+        machine.world.assume(path_facts.implied_by(value), holds=not stops_on)
         is_open = machine.world.changing != before
         last = index == len(node.values) - 1
         for option in options_of(value):

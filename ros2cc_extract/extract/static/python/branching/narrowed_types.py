@@ -1,5 +1,5 @@
 """
-What ``isinstance`` tells of a name or an attribute that may hold one of several objects.
+What ``isinstance`` shows about a name or an attribute that may hold one of several objects.
 
 In an arm of ``if isinstance(self.arm, Mock):`` the expression stands for fewer of them. What it
 does not stand for is kept in ``World.ready``, until the branches meet.
@@ -12,7 +12,7 @@ import ast
 from ros2cc_extract.extract.static.python.branching.open_tests import is_assigned_later
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.path_facts import Answer, Facts, Told, Word
+from ros2cc_extract.extract.static.python.machine.path_facts import Answer, Facts, Implied, Word
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
     Const,
@@ -24,10 +24,10 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 
 
-def told(
+def answer_of(
     machine: Machine, node: ast.Call, function: Value, call: Call, result: Value, frame: Frame
 ) -> Value:
-    """The answer of ``isinstance``, with what it tells of its first argument."""
+    """The answer of ``isinstance``, with what it shows about its first argument."""
     text = _text(node.args[0]) if len(node.args) == len(call.args) == len(('of', 'class')) else ''
     if not text or not isinstance(result, Mystery) or not _is_kept(machine, node.args[0], frame):
         return result
@@ -40,7 +40,9 @@ def told(
         return result
     frame.narrowed |= {text}
     return Answer(
-        result.unknown, node, Told(knows=frozenset(facts[True]), knows_not=frozenset(facts[False]))
+        result.unknown,
+        node,
+        Implied(knows=frozenset(facts[True]), knows_not=frozenset(facts[False])),
     )
 
 
@@ -55,7 +57,7 @@ def narrowed(machine: Machine, node: ast.expr, value: Value, frame: Frame) -> Va
 
 
 def forget(machine: Machine, target: ast.expr, frame: Frame) -> None:
-    """Something is stored there, of which nothing has been asked yet."""
+    """Something is stored there that no test has asked about yet."""
     text = _text(target)
     if text in frame.narrowed:
         mine = (frame.scope, text)
@@ -84,7 +86,7 @@ def _text(node: ast.expr) -> str:
 
 
 def _is_kept(machine: Machine, node: ast.expr, frame: Frame) -> bool:
-    """Whether nobody else may store something there between the test and what follows."""
+    """Whether no other code may store something there between the test and what follows."""
     if isinstance(node, ast.Name):
         return node.id in frame.scope.slots
     owner = machine.evaluate(node.value, frame) if isinstance(node, ast.Attribute) else None

@@ -2,7 +2,7 @@
 What a test in a callback reads may have changed since the set-up.
 
 Callbacks are followed one after the other from the state that the set-up leaves behind, but run
-in any order: a test on what some other function changes is open, whatever is stored there now.
+in any order: a test on what some other function changes is open, no matter what is stored now.
 So it is in the set-up itself once anything has been spun.
 """
 
@@ -281,7 +281,7 @@ def _may_be_filled(machine: Machine, held: Value | None) -> bool:
 
 
 def holds_objects(collection: Collection) -> bool:
-    """Whether there are objects in it, of which a callback may take one."""
+    """Whether it has objects that a callback may take."""
     items = (
         *collection.slots.get('items', ()),
         *collection.slots.get('entries', {}).values(),

@@ -1,4 +1,4 @@
-"""Methods that are found by a name of which only the beginning or the end is known."""
+"""Methods that are found by the beginning or the end of a name."""
 
 from __future__ import annotations
 

@@ -95,7 +95,7 @@ class Assignments(Machine):
                 self.note_attribute(option, name, AccessKind.WRITE, place)
 
     def _note_same_unknown(self, old: Any, new: Value) -> None:
-        """One attribute holds one thing: callers not in sight pass the same to all methods."""
+        """One attribute holds one thing: unknown callers pass the same to all methods."""
         if (
             isinstance(old, Mystery)
             and isinstance(new, Mystery)
@@ -154,7 +154,7 @@ def drawn_together(owner: Mapping, key: Value) -> dict[Value, Value]:
     """
     Give the entries without that of ``key``; the oldest of too many unsure keys share one.
 
-    A callback that stores under whatever a message says would fill the dictionary forever.
+    A callback that stores under a key from a message would fill the dictionary forever.
     """
     held = {known: value for known, value in owner.entries.items() if known is not key}
     unsure = [known for known in held if not loops.is_key(known)]

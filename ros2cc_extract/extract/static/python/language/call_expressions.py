@@ -43,7 +43,7 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     machine.world.reading.calls += 1
     result = machine.call(function, call)
     if isinstance(function, Native) and function.name == 'builtins.isinstance':
-        return narrowed_types.told(machine, node, function, call, result, frame)
+        return narrowed_types.answer_of(machine, node, function, call, result, frame)
     return result
 
 

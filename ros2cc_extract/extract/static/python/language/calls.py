@@ -97,7 +97,7 @@ class Calls(Machine):
         self.charge(0)  # calls within one expression double too, and no statement looks meanwhile
         self.world.called[id(function.node)] = function
         if len(self.stack) >= _CALL_DEPTH or self.stack.count(function) >= _SAME_FUNCTION:
-            if len({*self.stack, function}) > len(self.stack):  # nobody calls itself
+            if len({*self.stack, function}) > len(self.stack):  # none calls itself
                 note_cut(self.world, call.place, _TOO_DEEP)
             return self.mystery(f'recursion in {function.name}', call.place)
         trying = self.world.trying
@@ -359,7 +359,7 @@ class Calls(Machine):
         return given.items if is_whole and isinstance(given, Sequence) and given.items else None
 
     def run_if_coroutine(self, value: Value, place: Place) -> Value:
-        """Run ``value`` if it is a coroutine, which somebody awaits elsewhere."""
+        """Run ``value`` if it is a coroutine, which is awaited elsewhere."""
         if isinstance(value, Coroutine):
             return self.run_function(value.function, value.call)
         return value

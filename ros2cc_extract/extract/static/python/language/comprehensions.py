@@ -38,7 +38,7 @@ class Comprehensions(Machine):
                 many[key] = Mystery(why) if why is not None else self.why_many()
 
         ready = self.world.ready
-        # Whoever takes from a generator may stop before its end, as ``any`` does.
+        # Code that takes from a generator may stop before its end, as ``any`` does.
         is_whole = not isinstance(node, ast.GeneratorExp)
         self._generate(node.generators, inner, collect, None, is_whole=is_whole)
         picked, self.world.ready = self.world.ready - ready, ready
@@ -96,7 +96,7 @@ class Comprehensions(Machine):
         unsure: Unknown | None = None
         for condition in generator.ifs:
             holds = open_tests.decide(self, condition, frame)
-            self.world.assume(path_facts.told_by(self.world.tested), holds=True)
+            self.world.assume(path_facts.implied_by(self.world.tested), holds=True)
             if holds is False:
                 return False, None
             if holds is None:

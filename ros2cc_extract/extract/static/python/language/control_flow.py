@@ -62,23 +62,23 @@ def run_if(machine: Machine, node: ast.If, frame: Frame) -> int:
 
 def _arms(machine: Machine, node: ast.If, frame: Frame) -> list[Callable[[], int]]:
     """The arms of an undecided ``if … elif … else`` as alternatives of one statement."""
-    told = path_facts.told_by(machine.world.tested)
-    so_far: tuple[path_facts.Told, ...] = ()
+    implied = path_facts.implied_by(machine.world.tested)
+    so_far: tuple[path_facts.Implied, ...] = ()
     is_one_of_two = not (len(node.orelse) == 1 and isinstance(node.orelse[0], ast.If))
     arm = partial(_arm, machine, frame, is_one_of_two=is_one_of_two)
-    arms: list[Callable[[], int]] = [arm(node.body, so_far, told)]
+    arms: list[Callable[[], int]] = [arm(node.body, so_far, implied)]
     rest = node.orelse
     while len(rest) == 1 and isinstance(rest[0], ast.If):
         inner = rest[0]
-        so_far = (*so_far, told) if told is not None else so_far
+        so_far = (*so_far, implied) if implied is not None else so_far
         holds = open_tests.decide_branch(machine, inner, frame, node)
-        told = path_facts.told_by(machine.world.tested)
+        implied = path_facts.implied_by(machine.world.tested)
         if holds is not False:
-            arms.append(arm(inner.body, so_far, told))
+            arms.append(arm(inner.body, so_far, implied))
         if holds is True:
             return arms
         rest = inner.orelse
-    so_far = (*so_far, told) if told is not None else so_far
+    so_far = (*so_far, implied) if implied is not None else so_far
     arms.append(arm(rest, so_far, None))
     return arms
 
@@ -87,16 +87,16 @@ def _arm(
     machine: Machine,
     frame: Frame,
     body: Sequence[ast.stmt],
-    fails: Sequence[path_facts.Told],
-    holds: path_facts.Told | None,
+    fails: Sequence[path_facts.Implied],
+    holds: path_facts.Implied | None,
     *,
     is_one_of_two: bool,
 ) -> Callable[[], int]:
     """An arm that is run where some tests have failed, and its own, if any, has held."""
 
     def run() -> int:
-        for told in fails:
-            machine.world.assume(told, holds=False)
+        for implied in fails:
+            machine.world.assume(implied, holds=False)
         machine.world.assume(holds, holds=True)
         if is_one_of_two:
             skipped = holds.fails if holds is not None else fails[0].holds if fails else None
@@ -107,7 +107,7 @@ def _arm(
 
 
 def run_match(machine: Machine, node: ast.Match, frame: Frame) -> int:
-    """Run a ``match``, each case of which may hold."""
+    """Run a ``match``; each case may hold."""
     machine.evaluate(node.subject, frame)
     bodies: list[Callable[[], int]] = [
         lambda case=case: _case(machine, case, frame)  # type: ignore[misc]
@@ -176,18 +176,22 @@ def run_while(machine: Machine, node: ast.While, frame: Frame) -> int:
     holds, asked = open_tests.decide_loop(machine, node, frame)
     if holds is False:
         return machine.execute_block(node.orelse, frame)
-    told, ready = path_facts.told_by(machine.world.tested), machine.world.ready
-    begun = machine.begin_loop(node, frame, told)
+    implied, ready = path_facts.implied_by(machine.world.tested), machine.world.ready
+    begun = machine.begin_loop(node, frame, implied)
     reason = Unknown('made in a while loop', frame.place(node))
     with (
         loops.counted(machine, reason),
         _loop(machine, frame),
         machine.world.reading.in_loop(asked),
     ):
-        machine.world.assume(told, holds=True)
+        machine.world.assume(implied, holds=True)
         open_tests.note_rounds(node, frame)
         flow = _round(machine, node.body, frame)
-        ends = [] if holds else [ready | (told.fails if told is not None else path_facts.NOTHING)]
+        ends = (
+            []
+            if holds
+            else [ready | (implied.fails if implied is not None else path_facts.NOTHING)]
+        )
         after = path_facts.of_all([*ends, *frame.known_at_break] or [ready])
     machine.world.ready = ready
     if not flow & (BREAK | RETURN):

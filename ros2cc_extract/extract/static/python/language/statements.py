@@ -2,7 +2,7 @@
 Running statements.
 
 ``execute_block`` returns how the block may end, as a sum of the constants of ``block_exits.py``;
-more than one bit is set where that depends on a branch nobody can decide.
+more than one bit is set where that depends on a branch that cannot be decided.
 """
 
 from __future__ import annotations

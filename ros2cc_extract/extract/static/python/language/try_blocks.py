@@ -53,7 +53,7 @@ def _finally(machine: Machine, node: ast.Try, frame: Frame, flow: int) -> int:
 
 @contextmanager
 def _trying(machine: Machine, catches: bool) -> Iterator[None]:
-    """Calls directly inside that surely raise ``TypeError`` are left, where somebody takes it."""
+    """Leave out calls directly inside that surely raise ``TypeError``, if it is caught."""
     before = machine.world.trying
     machine.world.trying = (len(machine.stack), machine.store.depth) if catches else None
     try:

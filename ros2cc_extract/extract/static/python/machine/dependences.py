@@ -23,7 +23,7 @@ _IDENTITY = (ast.Is, ast.IsNot, ast.Eq, ast.NotEq)
 @dataclass(frozen=True)
 class Asked:
     """
-    A test, as far as it tells that somebody waits for a condition in time.
+    A test, as far as it shows that code waits for a condition in time.
 
     :param names: of the data that it reads.
     :param holds: the locks that were held then, see ``lost_notifications.py``.
@@ -43,12 +43,12 @@ class Reading:
     """
     Notes on the reads of shared data.
 
-    :param read: names that were read since somebody has last asked.
+    :param read: names that were read since the last question.
     :param flowing: names on which the value rests that is being stored.
     :param tests: names that a branch or an early return rests on, by the place of the test.
     :param items: the item that is meant, by the place of the container and its attribute.
     :param choices: the shared data because of which it is that item, in the same way.
-    :param used: objects of which more is asked than whether they are there, in the same way.
+    :param used: objects that are asked for more than being there, in the same way.
     :param compared: what is only asked for whether it is still what the function knows.
     :param stored: the value that is being stored.
     :param is_whole: what is stored now is read and stored in one piece, see ``atomic_updates.py``.
@@ -137,7 +137,7 @@ class Reading:
         return self.calls > max((self.tested_at.get(place, 0) for place in tests), default=0)
 
     def is_in_one_piece(self, name: str, path: Path) -> bool:
-        """Whether nobody writes ``name`` since it was read for what is stored now."""
+        """Whether no code writes ``name`` since it was read for what is stored now."""
         if not self.is_whole or (self.flowing and name not in self.flowing):
             return False
         return not self.governs(name, path) or not self.has_called_since(name, path)
@@ -170,7 +170,7 @@ class Reading:
             self.used.add((place, name))
 
     def note_comparison(self, node: ast.Compare, file: str, own: Container[str]) -> None:
-        """``self.goal is goal``: whoever asks so reckons with others that store it."""
+        """Note ``self.goal is goal``: code with this test expects others to store it."""
         left, right = node.left, node.comparators[0]
         if len(node.ops) > 1 or not isinstance(node.ops[0], _IDENTITY):
             return

@@ -41,7 +41,7 @@ def note_met(world: World, owner: Heaped, name: str, held: Value | None) -> None
 
 
 def note_found(world: World, owner: Heaped, name: str, held: Value | None) -> None:
-    """The same where it matters too that nobody has assigned anything yet."""
+    """The same where it matters too that nothing was assigned yet."""
     known = world.met.get((owner, name), frozenset())
     world.met[(owner, name)] = known | _objects(held)
 
@@ -52,7 +52,7 @@ def is_same_text(one: Value, other: Value) -> bool:
 
 
 def _objects(held: object) -> Tokens:
-    """What somebody may call, or call a method of."""
+    """What code may call, or call a method of."""
     if not isinstance(held, Value):
         return frozenset()
     tokens = (_token(option) for option in options_of(held))
@@ -63,7 +63,7 @@ def _token(value: Value) -> object:
     """
     Equal for functions of one text: a lambda is another object each time it is made.
 
-    So is a future that a callback makes in each run: who ends the wait for one ends it for all.
+    So is a future that a callback makes in each run: what ends the wait for one ends it for all.
     """
     if isinstance(value, Instance) and is_waited_on(value):
         return value.place

@@ -1,4 +1,4 @@
-"""What tells that a program is not followed to its end."""
+"""Signs that a program is not followed to its end."""
 
 from __future__ import annotations
 

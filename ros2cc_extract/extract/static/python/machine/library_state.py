@@ -9,7 +9,7 @@ from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 BESIDE = '__as_thread__'
-"""Slot of what an object is besides, as a node may be a thread: each has its own methods."""
+"""Slot of what else an object is, as a node may be a thread: each has its own methods."""
 
 
 class LibraryState:
@@ -20,8 +20,8 @@ class LibraryState:
     :cvar is_one_of_many: one of those in a collection stands for any other one there.
     :cvar is_known_by_name: where branches decide which one a name means, each gets that name.
     :cvar is_made_once: code that asks whether there is one yet makes one at each place.
-    :cvar is_beside: an object may be this besides what another base class makes of it.
-    :cvar is_unit_of_its_own: who waits for it waits for what it serves.
+    :cvar is_beside: an object may be this in addition to what another base class makes of it.
+    :cvar is_unit_of_its_own: a wait for it is a wait for what it serves.
     :cvar may_end_waits: code that has it may end what others wait for.
     """
 
@@ -46,7 +46,7 @@ class LibraryState:
 
 @dataclass(eq=False)
 class PlainState(LibraryState):
-    """A library object of which only the kind matters: a lock, an event, a publisher …"""
+    """A library object whose kind alone matters: a lock, an event, a publisher …"""
 
     is_block = True
     may_end_waits = True

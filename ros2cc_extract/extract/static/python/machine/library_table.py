@@ -33,8 +33,8 @@ class LibraryClass:
 
     :param state: makes what an instance has beyond its attributes.
     :param init: what ``__init__`` does; the receiver is the instance.
-    :param is_beside: an object may be this besides what another base class makes of it.
-    :param again: what holds for an instance that is made again, by who made it before.
+    :param is_beside: an object may be this in addition to what another base class makes of it.
+    :param again: what holds for an instance that is made again, by what made it before.
     """
 
     state: StateFactory | None = None
@@ -83,7 +83,7 @@ def merged(tables: list[Library]) -> Library:
 
 class LibraryModel:
     """
-    What is known of code that is not scanned: a class or function by whatever name.
+    What is known of code that is not scanned: a class or function of any name.
 
     :param harmless: how names begin of what does nothing with what it is given.
     :param making: how methods are called that make what matters: where one is asked for and

@@ -37,7 +37,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 from ros2cc_extract.source_locations import Place, Unknown
 
 THING_STEPS = 1_000
-"""What an entity or a thread costs all who come later, in steps."""
+"""What an entity or a thread costs all that come later, in steps."""
 PAIR_STEPS = 6
 """What an entity costs with each earlier one, as there are claims about both: some 300 of them."""
 
@@ -177,7 +177,7 @@ class Machine(Observer, LibraryHooks, ABC):
 
     @abstractmethod
     def run_if_coroutine(self, value: Value, place: Place) -> Value:
-        """Run ``value`` if it is a coroutine, which somebody awaits elsewhere."""
+        """Run ``value`` if it is a coroutine, which is awaited elsewhere."""
 
     @abstractmethod
     def zero_argument_super(self, frame: Frame) -> Value:

@@ -1,7 +1,7 @@
 """
-What the interpreter tells of while it follows a program.
+What the interpreter reports while it follows a program.
 
-A bare interpreter tells nobody: each of these does nothing. Who wants to know what runs beside
+In a bare interpreter each of these does nothing. Code that needs to know what runs beside
 each other, waits for each other and shares data overrides them, see ``concurrency/notes.py``.
 """
 
@@ -13,7 +13,7 @@ from contextlib import AbstractContextManager, nullcontext
 
 from ros2cc_extract.extract.static.python.machine.dependences import NOTHING_ASKED, Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.path_facts import Told
+from ros2cc_extract.extract.static.python.machine.path_facts import Implied
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.values.assumed_defaults import assumption
 from ros2cc_extract.extract.static.python.values.values import (
@@ -47,7 +47,7 @@ class Observer:
         """An attribute or item of an object is stored, or a collection in it changes in place."""
 
     def note_iteration(self, node: ast.expr, frame: Frame) -> None:
-        """A loop goes over a collection, which nobody may change in size meanwhile."""
+        """A loop goes over a collection, which may not change in size meanwhile."""
 
     def note_discarded(self, value: Value, place: Place) -> None:
         """A statement does nothing with the value of the call that it consists of."""
@@ -101,8 +101,8 @@ class Observer:
     def note_lock_method(self, owner: Value, name: str) -> None:
         """A method of ``owner`` has run that is called like one of a lock."""
 
-    def begin_loop(self, node: ast.While, frame: Frame, told: Told | None) -> object:
-        """A ``while`` begins whose test tells so; ``end_loop`` is given the result."""
+    def begin_loop(self, node: ast.While, frame: Frame, implied: Implied | None) -> object:
+        """Begin a ``while`` whose test shows ``implied``; ``end_loop`` is given the result."""
         return None
 
     def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:
@@ -112,7 +112,7 @@ class Observer:
         """A loop was followed that nothing in its body leaves."""
 
     def note_results(self, value: Value, place: Place) -> None:
-        """Somebody goes over ``value``, which cannot be followed."""
+        """A loop goes over ``value``, which cannot be followed."""
 
     def note_await(self, value: Value, place: Place) -> None:
         """``value`` is awaited."""
@@ -139,11 +139,11 @@ class LibraryHooks:
     def member_of_unknown_base(
         self, order: tuple[Value, ...], receiver: Value, name: str, place: Place
     ) -> Value | None:
-        """Attribute ``name`` where a base class is not in sight."""
+        """Attribute ``name`` where a base class is not known."""
         return None
 
     def member_of_mystery(self, value: Mystery, name: str, place: Place) -> Value | None:
-        """Attribute ``name`` of a value of which only its use tells what it is."""
+        """Attribute ``name`` of a value; only its use shows what it is."""
         return None
 
     def library_operation(self, op: ast.operator, left: Value, right: Value) -> Value | None:
@@ -155,7 +155,7 @@ class LibraryHooks:
         return None
 
     def takes_over(self, function: Native, arguments: list[Value], place: Place) -> bool:
-        """Whether whoever is given ``function`` is taken to run it with these arguments."""
+        """Whether code that is given ``function`` is taken to run it with these arguments."""
         return False
 
     def assumption(self, fact: str, value: Mystery) -> str:
@@ -163,7 +163,7 @@ class LibraryHooks:
         return assumption(fact, value)
 
     def objects_made(self) -> int:
-        """How many objects of libraries there are of which it matters which one is meant."""
+        """The number of library objects whose identity matters."""
         return 0
 
     def doubt_objects(self, since: int, reason: str, place: Place) -> None:

@@ -1,10 +1,10 @@
 """
-What tests tell of the objects that others may wait for: a future is done, a thread has ended.
+What tests show about the objects that others may wait for: a future is done, a thread has ended.
 
 ``if not future.done(): await future`` waits; behind ``if future.done():`` the result is there, and
 a loop that asks until the answer changes is a wait itself. The answer to such a question is an
 ``Answer``, through ``not``, ``and``, ``or``, names and functions; where a test has come out, what
-it tells is kept in ``World.ready`` until the branches meet. Source: CPython 3.12,
+it shows is kept in ``World.ready`` until the branches meet. Source: CPython 3.12,
 ``concurrent/futures/_base.py``, ``threading.py``, ``queue.py``.
 """
 
@@ -47,9 +47,9 @@ _ASKED = 'the answer of what others change'
 
 
 @dataclass(frozen=True)
-class Told:
+class Implied:
     """
-    What the truth of a test tells.
+    What follows from the truth of a test.
 
     :param holds: what has surely happened where it is true, ``fails`` where it is false.
     :param makes: what may make it true when it happens, ``breaks`` false.
@@ -66,9 +66,9 @@ class Told:
     knows_not: Facts = NOTHING
     is_either: bool = False
 
-    def negated(self) -> Told:
+    def negated(self) -> Implied:
         """The same of ``not``."""
-        return Told(
+        return Implied(
             holds=self.fails,
             fails=self.holds,
             makes=self.breaks,
@@ -80,86 +80,86 @@ class Told:
 
 
 class Answer(Mystery):
-    """A truth that could not be followed, and what it tells of the objects that were asked."""
+    """A truth that could not be followed, and what it shows about the objects that were asked."""
 
-    __slots__ = ('told',)
+    __slots__ = ('implied',)
 
-    def __init__(self, unknown: Unknown, text: str | ast.expr, told: Told) -> None:
+    def __init__(self, unknown: Unknown, text: str | ast.expr, implied: Implied) -> None:
         super().__init__(unknown, text)
-        self.told = told
+        self.implied = implied
 
 
 def answer(thing: Value, word: Word, call: Call, *, if_true: bool = True) -> Answer:
     """Whether ``word`` has happened to ``thing``, or whether it has not."""
     facts = frozenset({(thing, word)})
-    told = Told(holds=facts, makes=facts)
+    implied = Implied(holds=facts, makes=facts)
     return Answer(
-        Unknown(_ASKED, call.place), call.text or '', told if if_true else told.negated()
+        Unknown(_ASKED, call.place), call.text or '', implied if if_true else implied.negated()
     )
 
 
 def full(queue: Value, call: Call) -> Answer:
     """Whether ``queue`` has no room left; it holds something then."""
     got, put = (frozenset({(queue, word)}) for word in (Word.GET, Word.PUT))
-    told = Told(fails=got, breaks=got, knows=put)
-    return Answer(Unknown(_ASKED, call.place), call.text or '', told)
+    implied = Implied(fails=got, breaks=got, knows=put)
+    return Answer(Unknown(_ASKED, call.place), call.text or '', implied)
 
 
 def cancelled(future: Value, call: Call) -> Answer:
     """Whether ``future`` was cancelled, which makes it done."""
-    told = Told(holds=frozenset({(future, Word.SET)}))
-    return Answer(Unknown(_ASKED, call.place), call.text or '', told)
+    implied = Implied(holds=frozenset({(future, Word.SET)}))
+    return Answer(Unknown(_ASKED, call.place), call.text or '', implied)
 
 
 def known_if_true(fact: tuple[Value, Word], call: Call) -> Answer:
-    """A truth that nobody waits for, and what it tells."""
-    told = Told(knows=frozenset({fact}))
-    return Answer(Unknown('a transform at run time', call.place), call.text or '', told)
+    """A truth that nobody waits for, and what it shows."""
+    implied = Implied(knows=frozenset({fact}))
+    return Answer(Unknown('a transform at run time', call.place), call.text or '', implied)
 
 
 def running(future: Value, call: Call) -> Answer:
     """Whether ``future`` is worked at just now."""
-    told = Told(breaks=frozenset({(future, Word.SET)}))
-    return Answer(Unknown(_ASKED, call.place), call.text or '', told)
+    implied = Implied(breaks=frozenset({(future, Word.SET)}))
+    return Answer(Unknown(_ASKED, call.place), call.text or '', implied)
 
 
-def told_by(value: Value | None) -> Told | None:
-    """What ``value`` tells as a test; of one of several objects that it is the one in question."""
+def implied_by(value: Value | None) -> Implied | None:
+    """What ``value`` shows as a test; of one of several objects, that it is the one meant."""
     options = options_of(value) if value is not None else ()
-    found = [option.told for option in options if isinstance(option, Answer)]
+    found = [option.implied for option in options if isinstance(option, Answer)]
     return reduce(_both, found) if found else None
 
 
 def negated(value: Value, node: ast.expr) -> Answer | None:
     """The value of ``not``."""
-    told = told_by(value)
-    return None if told is None else Answer(_unknown(value), node, told.negated())
+    implied = implied_by(value)
+    return None if implied is None else Answer(_unknown(value), node, implied.negated())
 
 
 def joined(values: Sequence[Value], node: ast.BoolOp) -> Answer | None:
     """The value of ``and`` and ``or``, where nothing but truths stands in it."""
-    if not any(told_by(value) for value in values) or not all(map(_is_truth, values)):
+    if not any(implied_by(value) for value in values) or not all(map(_is_truth, values)):
         return None
-    told = _of_each(values, stops_on=isinstance(node.op, ast.Or))
-    return Answer(_first(values), node, told)
+    implied = _of_each(values, stops_on=isinstance(node.op, ast.Or))
+    return Answer(_first(values), node, implied)
 
 
 def of_items(items: Sequence[Value], call: Call, *, stops_on: bool) -> Answer | None:
     """The value of ``any(…)``, which the first truth stops, and of ``all(…)``."""
-    if not any(told_by(item) for item in items):
+    if not any(implied_by(item) for item in items):
         return None
     return Answer(_first(items), call.text or '', _of_each(items, stops_on=stops_on))
 
 
 def compared(op: ast.cmpop, left: Value, right: Value, node: ast.expr) -> Answer | None:
     """The value of ``future.done() is False``."""
-    told = told_by(left)
-    if told is None or not isinstance(right, Const) or not isinstance(right.value, bool):
+    implied = implied_by(left)
+    if implied is None or not isinstance(right, Const) or not isinstance(right.value, bool):
         return None
     is_same = isinstance(op, (ast.Is, ast.Eq))
     if not is_same and not isinstance(op, (ast.IsNot, ast.NotEq)):
         return None
-    return Answer(_unknown(left), node, told if is_same is right.value else told.negated())
+    return Answer(_unknown(left), node, implied if is_same is right.value else implied.negated())
 
 
 def of_all(ends: Iterable[Facts]) -> Facts:
@@ -168,25 +168,25 @@ def of_all(ends: Iterable[Facts]) -> Facts:
     return frozenset.intersection(*kept) if kept else NOTHING
 
 
-def _of_each(values: Sequence[Value], *, stops_on: bool) -> Told:
-    told = [told_by(value) or Told() for value in values]
-    return _all([each.negated() for each in told]).negated() if stops_on else _all(told)
+def _of_each(values: Sequence[Value], *, stops_on: bool) -> Implied:
+    implied = [implied_by(value) or Implied() for value in values]
+    return _all([each.negated() for each in implied]).negated() if stops_on else _all(implied)
 
 
-def _all(told: Sequence[Told]) -> Told:
-    return Told(
-        holds=NOTHING.union(*(each.holds for each in told)),
-        fails=of_all(each.fails for each in told),
-        makes=NOTHING.union(*(each.makes for each in told)),
-        breaks=NOTHING.union(*(each.breaks for each in told)),
-        knows=NOTHING.union(*(each.knows for each in told)),
-        knows_not=of_all(each.knows_not for each in told),
-        is_either=any(each.is_either for each in told),
+def _all(implied: Sequence[Implied]) -> Implied:
+    return Implied(
+        holds=NOTHING.union(*(each.holds for each in implied)),
+        fails=of_all(each.fails for each in implied),
+        makes=NOTHING.union(*(each.makes for each in implied)),
+        breaks=NOTHING.union(*(each.breaks for each in implied)),
+        knows=NOTHING.union(*(each.knows for each in implied)),
+        knows_not=of_all(each.knows_not for each in implied),
+        is_either=any(each.is_either for each in implied),
     )
 
 
-def _both(one: Told, other: Told) -> Told:
-    return Told(
+def _both(one: Implied, other: Implied) -> Implied:
+    return Implied(
         holds=one.holds | other.holds,
         fails=one.fails | other.fails,
         makes=one.makes | other.makes,
@@ -206,4 +206,4 @@ def _unknown(value: Value) -> Unknown:
 
 
 def _first(values: Sequence[Value]) -> Unknown:
-    return _unknown(next(value for value in values if told_by(value) is not None))
+    return _unknown(next(value for value in values if implied_by(value) is not None))

@@ -1,4 +1,4 @@
-"""Who is followed by itself, and what he was seen to do meanwhile."""
+"""What is followed by itself, and what it was seen to do meanwhile."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class EffectLog:
     """
     What one callback or activity does, in the order of its text.
 
-    :param behind: the last wait that lies behind what is followed now, as ``way_of`` tells it.
+    :param behind: the last wait that lies behind what is followed now, as ``way_of`` returns it.
     :param own: names of what only the loop around it asks for: changes of objects that nobody
         else has, and of what lies in a collection.
     :param stored: names of what is written in a hold of a lock, see ``lost_notifications.py``.
@@ -58,7 +58,7 @@ class EffectLog:
     :param woken: of what others may wait on, by its identity, how many waits came before its wait
         was ended first.
     :param pieces: what is changed piece by piece, or published as a whole.
-    :param looped: the waits that stand in a loop of which nobody knows how often it goes round.
+    :param looped: the waits in a loop with an unknown number of rounds.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     :param resting: loops that await something in each round.
     :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
@@ -96,7 +96,7 @@ class Doer:
     """
     Code that is followed by itself, as it runs beside others: a callback, a thread.
 
-    What the interpreter and the notes of waits ask of it says whoever models it.
+    Subclasses say what the interpreter and the notes of waits ask of it.
     """
 
     effects: EffectLog | None
@@ -119,7 +119,7 @@ class Doer:
 
     @property
     def is_answered(self) -> bool:
-        """Whether it takes answers that somebody else must give."""
+        """Whether it takes answers that other code must give."""
         return False
 
     is_set_up: bool = False

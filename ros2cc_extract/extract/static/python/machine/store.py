@@ -67,7 +67,7 @@ class Store:
 
     @contextmanager
     def outside_branches(self) -> Iterator[None]:
-        """What is written inside stays, on whatever branch it happens first."""
+        """Keep what is written inside, on whichever branch it happens first."""
         branches = self._trail, self._opened, self._marks, self._depth
         self._trail, self._opened, self._marks, self._depth = [], [], [], 0
         try:

@@ -1,4 +1,4 @@
-"""Objects whose only use is that somebody waits on them and somebody else ends the wait."""
+"""Objects whose only use is that code waits on them and other code ends the wait."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """
 What one run of a program leaves behind, as far as Python itself goes.
 
-Records are mutable while the run goes on. Who models more than the language derives from it: what
+Records are mutable while the run goes on. Models of more than the language derive from it: what
 runs concurrently in ``concurrency/machine/state.py``, the model of a library in its own.
 """
 
@@ -15,7 +15,7 @@ from typing import TypeVar
 
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
-from ros2cc_extract.extract.static.python.machine.path_facts import Told, Word
+from ros2cc_extract.extract.static.python.machine.path_facts import Implied, Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
 from ros2cc_extract.extract.static.python.values.values import (
     Class,
@@ -79,13 +79,13 @@ class World:
     """
     One run.
 
-    :param settled_now: attributes that nobody else changes, so that they hold what is stored.
+    :param settled_now: attributes that no other code changes, so that they hold what is stored.
     :param current: the callback that is followed; ``activity`` the thread, or the part of the
         main program.
     :param path: the undecided branches we are in.
     :param count: how often what is made now is made (loops).
     :param is_program: it is run from an entry, so that nothing happens before its set-up.
-    :param open_loops: how many loops are followed of which nobody knows how often they go round.
+    :param open_loops: how many loops with an unknown number of rounds are followed.
     :param ready: what has surely happened to objects that others may wait for, see
         ``path_facts.py``.
     :param picked: what had happened to items for which they were put into a collection, by its
@@ -96,14 +96,14 @@ class World:
     :param made_of: how many instances there are of each class.
     :param followed_later: how many methods of each class were followed without a caller.
     :param settled: instances in which nothing was left to follow, with a stamp of that time.
-    :param without_caller: the objects on which those were followed that nobody in sight calls.
+    :param without_caller: the objects on which functions without a known caller were followed.
     :param yielding: the last generator that ran, with the locks that it keeps while it yields.
     :param looking: the properties that are running, by owner and name.
-    :param unset_globals: what stands in globals that are ``None`` in sight, by file and name.
-    :param same_unknowns: arguments of callers not in sight that one attribute holds in turn.
+    :param unset_globals: values of globals that known code only sets to ``None``, by file, name.
+    :param same_unknowns: arguments of unknown callers that one attribute holds in turn.
     :param reading: what the callback that is followed has read.
     :param times: how often a loop does what is followed once, where that is known.
-    :param round: which rounds of the loops around it are followed, where that tells them apart.
+    :param round: which rounds of the loops around it are followed, where that distinguishes them.
     :param iterating: class of the collection that a loop begins to go over.
     :param parts: what was made while an object was set up, by the identity of the object.
     :param moves: what the call does to a collection that follows, see ``Access``.
@@ -113,8 +113,8 @@ class World:
     :param trees: the text of every module that was run; ``files`` with the names of its file.
     :param changing: how often a callback has read what other functions may change.
     :param unset: how often one has read ``None`` where other functions put something.
-    :param lacking: attributes that callbacks asked for before anybody had set them, and (without
-        a name) collections before anybody had put an object in.
+    :param lacking: attributes that callbacks asked for before they were set, and (without
+        a name) collections before an object was put in.
     :param missing: open tests on whether something is there yet.
     :param again: the running callback is followed once more; what it makes, it has made then.
     :param stored: what each attribute was ever assigned, by the place of that.
@@ -226,10 +226,12 @@ class World:
     def begin_outermost_loop(self) -> None:
         """A loop begins that stands in no other one."""
 
-    def assume(self, told: Told | None, *, holds: bool) -> None:
+    def assume(self, implied: Implied | None, *, holds: bool) -> None:
         """From here on a test has come out so."""
-        if told is not None:
-            self.ready |= told.holds | told.knows if holds else told.fails | told.knows_not
+        if implied is not None:
+            self.ready |= (
+                implied.holds | implied.knows if holds else implied.fails | implied.knows_not
+            )
 
     def assume_picked(self, collection: Value, item: Value) -> None:
         """An item is taken out of a collection into which it was picked for what it answered."""

@@ -1,8 +1,8 @@
 """
-Which nodes are one, and which entities: what is made only while there is none is made once.
+Which nodes are one, and which entities: what is made only if it does not exist yet is made once.
 
-A test such as ``if node is None`` cannot be decided in a callback, nor in code whose caller is
-not in sight. What such code makes at one place, with the same arguments, is one node; else a
+A test such as ``if node is None`` cannot be decided in a callback, nor in code with an unknown
+caller. What such code makes at one place, with the same arguments, is one node; else a
 callback that asks for its node would make another one, whose callbacks would make another one.
 """
 

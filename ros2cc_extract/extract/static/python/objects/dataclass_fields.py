@@ -1,5 +1,5 @@
 """
-The fields of data classes: which there are, and what they hold where nobody passes anything.
+The fields of data classes: which there are, and what they hold by default.
 
 Source: CPython 3.12, ``dataclasses.py`` (fields of bases come first, ``_init_param`` and
 ``_field_init`` for the defaults; a ``default_factory`` is called for each object).
@@ -17,7 +17,7 @@ from ros2cc_extract.source_locations import Place
 
 class FieldDefault(Value):
     """
-    What ``field(…)`` says a field holds where nobody passes anything.
+    What ``field(…)`` says a field holds by default.
 
     :param factory: makes it anew for each object; else ``default`` is it.
     """

@@ -17,7 +17,7 @@ def note_kept(world: World, item: Value, place: Place) -> None:
     """
     A run puts something into a collection, out of which others take it.
 
-    Who takes items under keys that are not known, or at other times, is not followed to an end.
+    Code that takes items under unknown keys, or at other times, is not followed to an end.
     What is an attribute of an object of the program is known by its name.
     """
     if world.effects is None:

@@ -156,7 +156,7 @@ class LibraryCalls(Machine):
 
 
 def _add_state(instance: Instance, make: Callable[[], Any], row: LibraryClass) -> None:
-    """What is something else besides, as a node may be a thread, keeps that apart."""
+    """What is also something else, as a node may be a thread, keeps that apart."""
     first = instance.state
     if first is None:
         instance.state = make()

@@ -155,7 +155,7 @@ def repeated(
     """
     What is done inside is done once for each item, if nothing leaves a round of the loop.
 
-    Gives a function that is told of the item with which a round begins.
+    Yields a function to call with the item with which a round begins.
     """
     world = machine.world
     before = world.round, world.times
@@ -180,7 +180,7 @@ def repeated(
 
 
 def run_loop(machine: Machine, items: Items, once: Callable[[Value], int], place: Place) -> int:
-    """Run the body of a ``for`` loop; returns how it may end, ``BREAK`` told from ``NEXT``."""
+    """Run the body of a ``for`` loop; returns how it may end, ``BREAK`` distinct from ``NEXT``."""
     path, ends = machine.world.path, 0
     assumed, effects = machine.world.assumed, machine.world.effects or EffectLog()
     machine.world.assumed = items.assumed or assumed

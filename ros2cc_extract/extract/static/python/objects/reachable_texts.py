@@ -81,7 +81,7 @@ def leads_nowhere(machine: Machine, start: ast.AST) -> bool:
 
 
 def _does_more(acting: frozenset[str], node: ast.AST) -> bool:
-    """Whether it names threads, locks and waits, or calls what somebody hands in."""
+    """Whether it names threads, locks and waits, or calls what is passed in."""
     if not acting.isdisjoint(used_names(node)):
         return True
     handed_in = {part.arg for part in walk(node) if isinstance(part, ast.arg)} - {'cls'}

@@ -15,7 +15,7 @@ Effect = TypeVar('Effect', Access, Act, Blocking)
 
 
 def both(before: EffectLog, again: EffectLog) -> EffectLog:
-    """What is told of one place the second time replaces what was told of it the first time."""
+    """Merge two logs: what the second says of a place replaces what the first says of it."""
     return EffectLog(
         blocking=_both(before.blocking, again.blocking, lambda effect: effect.call),
         reads=_both(before.reads, again.reads, lambda effect: (effect.name, effect.update)),
@@ -65,8 +65,8 @@ def _site(world: World, cls: Class | Library, place: Place) -> object:
 def _both(
     before: list[Effect], again: list[Effect], name: Callable[[Effect], object]
 ) -> list[Effect]:
-    told = {(effect.source, effect.chain, name(effect)) for effect in again}
-    kept: list[Effect] = [d for d in before if (d.source, d.chain, name(d)) not in told]
+    replaced = {(effect.source, effect.chain, name(effect)) for effect in again}
+    kept: list[Effect] = [d for d in before if (d.source, d.chain, name(d)) not in replaced]
     return sorted(kept + again, key=_way) if kept else again
 
 

@@ -28,5 +28,5 @@ def subclasses_of(machine: Machine, receiver: Value, call: Call) -> Value:
     is_root = not any(isinstance(base, Class) for base in receiver.bases)
     if known or not is_root:
         return Sequence(known)
-    reason = f'subclasses of {receiver.name}, of which the program imports none in sight'
+    reason = f'subclasses of {receiver.name}, none of which the program is known to import'
     return Sequence((), 'list', Unknown(reason, call.place))

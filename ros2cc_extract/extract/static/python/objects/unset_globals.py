@@ -1,5 +1,5 @@
 """
-Globals that are ``None`` as far as the program is in sight, and that somebody else sets.
+Globals that known code only sets to ``None``, and that unknown code sets.
 
 Whatever that is, it is one thing wherever the global is used: ``node.create_client(…)`` on ten
 lines makes ten clients of one node, not of ten.
@@ -40,7 +40,7 @@ def unset_global(
 
 
 def pass_on(machine: Machine, node: ast.Call, call: Call, frame: Frame) -> None:
-    """A library is given the thing itself; of what nobody uses as a thing ``None`` is passed."""
+    """A library is given the thing itself; ``None`` is passed for what no code uses as a thing."""
     if not machine.world.unset_globals:
         return
     for at, text in enumerate(node.args[: len(call.args)]):

@@ -6,7 +6,7 @@ from ros2cc_extract.extract.static.python.values.values import Call, Function
 
 
 def fits(function: Function, call: Call) -> bool:
-    """Whether Python takes the call, as far as it can be told; else it raises ``TypeError``."""
+    """Whether Python takes the call, as far as it is known; else it raises ``TypeError``."""
     if call.more is not None:
         return True
     arguments = function.node.args
@@ -27,7 +27,7 @@ def fits(function: Function, call: Call) -> bool:
 
 
 def sources_of(function: Function, call: Call) -> dict[str, frozenset[str]]:
-    """The shared data behind the parameters of a function, as ``Call.sources`` tells it."""
+    """The shared data behind the parameters of a function, as in ``Call.sources``."""
     arguments = function.node.args
     names = [parameter.arg for parameter in (*arguments.posonlyargs, *arguments.args)]
     return {

@@ -1,8 +1,8 @@
 """
-What a value that nobody knows is where nobody says otherwise: the default of a parameter.
+What an unknown value is assumed to be: the default of a parameter.
 
 Such a value stays unknown, ``Mystery``, and carries its default along, through arithmetic and
-text; whoever takes it says so in ``assumed``. Tests on it stay open.
+text; code that takes it says so in ``assumed``. Tests on it stay open.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import Const, Mystery, Value
 
 PARAMETER = 'value of parameter'
-"""How the reason of what somebody may set from outside begins, by the name of that."""
+"""How the reason of what may be set from outside begins, by its name."""
 
 
 def default_of(value: Value | None) -> Value | None:

@@ -1,4 +1,4 @@
-"""Calls by somebody who is not in sight."""
+"""Calls by unknown code."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ros2cc_extract.source_locations import Place, Unknown
 
 
 def unknown_arguments(function: Function, place: Place, skip: int) -> Call:
-    """A call of ``function`` by somebody who is not in sight."""
+    """A call of ``function`` by unknown code."""
     arguments = function.node.args
     names = [parameter.arg for parameter in (*arguments.posonlyargs, *arguments.args)]
     defaults = dict(

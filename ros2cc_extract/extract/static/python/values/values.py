@@ -18,7 +18,7 @@ from ros2cc_extract.source_locations import Place, Unknown
 
 _TEXT_LIMIT = 60
 
-NO_CALLER = 'no caller is in sight'
+NO_CALLER = 'no caller is known'
 NOT_FOLDED = 'an expression that could not be folded'
 
 
@@ -67,7 +67,7 @@ class Mystery(Value):
     A value that could not be followed.
 
     :param text: how the source calls it; two mysteries of one text and place are one thing.
-    :param default: what it is when nobody passes anything else (a parameter's default).
+    :param default: what it is if nothing else is passed (a parameter's default).
     :ivar is_plain: it is a number or a text for certain, whichever.
     """
 
@@ -88,14 +88,14 @@ class Mystery(Value):
 
     @property
     def text(self) -> str:
-        """Short source of the expression, made when somebody asks."""
+        """Short source of the expression, made on demand."""
         if not isinstance(self._text, str):
             self._text = source_text(self._text)
         return self._text
 
     @property
     def lacks_caller(self) -> bool:
-        """Whether it is what somebody who is not in sight passes."""
+        """Whether it is what an unknown caller passes."""
         return self.unknown.reason.endswith(NO_CALLER)
 
     def __repr__(self) -> str:
@@ -103,7 +103,7 @@ class Mystery(Value):
 
 
 def source_text(node: ast.expr) -> str:
-    """Short source of an expression, for messages and to tell mysteries apart."""
+    """Short source of an expression, for messages and to distinguish mysteries."""
     try:
         text = ast.unparse(node)
     except RecursionError:
@@ -346,7 +346,7 @@ class Partial(Value):
     """
     ``functools.partial`` of something callable.
 
-    :param more: why more may be bound than what is in sight.
+    :param more: why more may be bound than is known.
     """
 
     __slots__ = ('args', 'function', 'keywords', 'more')
@@ -418,7 +418,7 @@ Handler = Callable[[Any, Value, Call], Value]
 A library function: the machine, the receiver (or what stands before the dot), the call.
 
 Which machine it needs is for the function to say: one of ``math`` is content with any, one of
-``threading`` needs one that notes who waits.
+``threading`` needs one that notes which code waits.
 """
 
 

@@ -1,8 +1,8 @@
 """
-Barriers: who comes to one, and whether all come to every round of it.
+Barriers: what comes to one, and whether all come to every round of it.
 
 A barrier lets its parties through together and begins anew (CPython 3.12, ``threading.py``,
-``Barrier``). Whoever comes once more than the others waits for somebody who does not come; where
+``Barrier``). One that comes once more than the others waits for a party that does not come; if
 more come than it lets through, those of different rounds meet.
 """
 
@@ -25,7 +25,7 @@ CALL = 'Barrier.wait'
 
 
 def visits_of(reference: ResourceRef, doers: Sequence[Doer]) -> Visits:
-    """The waits at a barrier, of everybody who comes to it."""
+    """The waits at a barrier, of all that come to it."""
     numbers = {reference.number, *reference.like}
     found: dict[Doer, list[Blocking]] = {}
     for doer in doers:
@@ -71,21 +71,21 @@ def _others_come(visits: Visits, mine: Sequence[Waking]) -> bool:
 def why_rounds_differ(
     raw: Blocking, reference: ResourceRef, visits: Visits, mine: Sequence[Waking]
 ) -> Unknown | None:
-    """Why it is not certain that all come whenever somebody waits."""
+    """Why it is not certain that all come at each wait."""
     reason = _reason(reference, visits, mine)
     return None if reason is None else Unknown(reason, raw.source)
 
 
 def _reason(reference: ResourceRef, visits: Visits, mine: Sequence[Waking]) -> str | None:
     if _others_come(visits, mine):
-        return None  # who they are is told elsewhere
+        return None  # who they are is found elsewhere
     if not reference.is_own and any(_may_meet_itself(doer) for doer in visits):
-        return 'several runs of one who comes may meet there'
+        return 'several runs of one that comes may meet there'
     parties = reference.parties
     if parties is None:
         return 'how many must come is not known'
     if parties > len(visits):
-        return None  # nobody ever ends it
+        return None  # nothing ever ends it
     if parties < len(visits):
         return f'{parties} must come, and more do'
     if len({tuple(block.times for block in blocks) for blocks in visits.values()}) > 1:

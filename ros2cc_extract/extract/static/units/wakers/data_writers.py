@@ -1,4 +1,4 @@
-"""Who writes the data, or sends the messages, for which code waits."""
+"""What writes the data, or sends the messages, for which code waits."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Doer = EntityState | ActivityState
 
 @dataclass
 class Kept:
-    """The waits of one callback or activity that the unit tells of, and where each raw one is."""
+    """The waits of one callback or activity that are in the unit, and where each raw one is."""
 
     raw: list[Blocking] = field(default_factory=list)
     named: list[Blocking] = field(default_factory=list)
@@ -61,7 +61,7 @@ class DataWriters:
         return names.pop() if is_one and not is_activity(doer) else str(on)
 
     def _writes(self, on: DataRef) -> Iterator[tuple[Doer, Access]]:
-        """Who writes what a loop waits for, but for what its own callback did before."""
+        """What writes the data a loop waits for, except what its own callback did before."""
         for doer in self._doers:
             effects = doer.effects or EffectLog()
             parts = (piece.access for piece in effects.pieces if piece.part)
@@ -70,7 +70,7 @@ class DataWriters:
                     yield doer, access
 
     def _movers(self, clock: object, topic: ClockRef) -> tuple[Waker, ...]:
-        """Who moves a simulated clock: the subscription, and somebody who sends to it."""
+        """What moves a simulated clock: the subscription, and a publisher that sends to it."""
         by = [clock if isinstance(clock, str) else OUTSIDE]
         if not any(self._senders(TopicRef(topic))):
             by.append(OUTSIDE)
@@ -111,7 +111,7 @@ class DataWriters:
         return written.get((access.name, access.source), (None, True))[1]
 
     def _senders(self, topic: TopicRef) -> Iterator[Waker]:
-        """Who publishes what is waited for; the names are compared as they are written."""
+        """What publishes the awaited message; the names are compared as they are written."""
         for doer in self._doers:
             for act in (doer.effects or EffectLog()).publishes:
                 if isinstance(act.name, str) and act.name.strip('/') == topic.strip('/'):
@@ -129,7 +129,7 @@ class DataWriters:
         """
         What the program does when the spin has ended, which ends its threads from outside.
 
-        So does what it does beside them before; a thread that works meanwhile waits for nobody.
+        So does what it does beside them before; a thread that works meanwhile does not wait.
         """
         for name in sorted(on.names) if is_activity(doer) else ():
             by, place = self._world.other_writes.get(name, ('', None))
@@ -153,5 +153,5 @@ def _is_before(access: Access, on: DataRef) -> bool:
 
 
 def _all_recur(writes: Iterable[tuple[Doer, Access]]) -> bool:
-    """Whether whoever writes comes again and again."""
+    """Whether all the writers run again and again."""
     return all(isinstance(by, EntityState) and by.kind in RECURRING for by, _ in writes)

@@ -1,7 +1,7 @@
 """
 What there is to take at first: the value of a semaphore, the room in a bounded queue.
 
-Whoever gives back in each run what it takes uses up nothing, so that the number at first holds for
+Code that gives back in each run what it takes uses up nothing, so the first number holds for
 every run and the model can count it. Else it is a matter of how many runs there were.
 """
 
@@ -58,9 +58,9 @@ def is_plain_lock(
     raw: Blocking, doer: Doer, doers: Sequence[Doer], given: Sequence[Waking]
 ) -> bool:
     """
-    Whether a semaphore is taken as a lock of which nothing more is to be said.
+    Whether a semaphore is only taken as a lock.
 
-    Everybody who takes it gives it back, and waits for nothing meanwhile, nor takes it twice.
+    All code that takes it gives it back, waits for nothing meanwhile, and does not take it twice.
     """
     takers = [each for each in doers if any(_takes(raw, each))]
     return any(each is doer for each in takers) and all(

@@ -1,5 +1,5 @@
 """
-Events that are cleared behind the message that brings who sets them.
+Events that are cleared after the message whose answer sets them.
 
 What the message brings may have come before the ``clear``, see ``cleared_events.py``.
 """
@@ -23,10 +23,10 @@ def answer_from_outside(
     sent: frozenset[str], wakers: Sequence[object], world: RosWorld
 ) -> str | None:
     """
-    The topics of the messages for whose answers a wait is, where another process gives these.
+    The topics of the messages whose answers a wait is for, if another process gives them.
 
-    They come by subscriptions whose topics nobody in sight publishes. Who sends nothing before it
-    waits takes it that messages come by themselves.
+    They come by subscriptions whose topics no known code publishes. Code that sends nothing
+    before it waits expects messages that come by themselves.
     """
     heard = {heard_on(waker) for waker in wakers}
     doers: tuple[Doer, ...] = (*world.entities, *world.activities)
@@ -66,7 +66,7 @@ def _answers(sent: frozenset[str], doers: Sequence[Doer]) -> frozenset[str]:
 def _is_answer(
     topic: str | None, answers: frozenset[str], doer: Doer, doers: Sequence[Doer]
 ) -> bool:
-    """Whether nobody in sight publishes ``topic`` but because of a message that was sent."""
+    """Whether known code publishes ``topic`` only because of a message that was sent."""
     if topic is None:
         return False
     senders = [each for each in doers if topic in published_by(each)]

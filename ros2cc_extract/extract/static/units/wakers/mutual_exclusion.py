@@ -1,4 +1,4 @@
-"""Who is kept from running at the same time: an answer of one is not changed by another."""
+"""Callbacks that cannot run at the same time: an answer of one is not changed by another."""
 
 from __future__ import annotations
 

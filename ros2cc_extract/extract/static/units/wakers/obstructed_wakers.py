@@ -3,7 +3,7 @@ Wakers that others may keep from ending a wait, in ways that no model has.
 
 A task or a done-callback is there only when its maker has run, and an execute callback when a goal
 callback has accepted; a loop of asyncio runs one coroutine at a time, which
-holds it while it blocks; and who puts something in and takes it out again in the same run may be
+holds it while it blocks; and code that puts something in and takes it out in the same run may be
 the one who gets it. Such a waker is one that perhaps never comes.
 """
 
@@ -28,7 +28,7 @@ _FOR_ONE = frozenset({Word.PUT, Word.GET, Word.RELEASE})
 def is_kept_out(
     waking: Waking, reference: ResourceRef, doer: Doer, doers: Sequence[Doer], wait: Blocking
 ) -> bool:
-    """Whether ``waking`` may not come while ``doer`` is in ``wait``, or be for somebody else."""
+    """Whether ``waking`` may not come while ``doer`` is in ``wait``, or be for another wait."""
     by = waking.by
     if by is doer:
         return False
@@ -40,7 +40,7 @@ def is_kept_out(
 
 
 def is_off_its_loop(by: object, doers: Sequence[Doer]) -> bool:
-    """Whether it is to run on a loop of asyncio that somebody else may block."""
+    """Whether it is to run on a loop of asyncio that other code may block."""
     return isinstance(by, ActivityState) and any(_holds_the_loop_of(by, each) for each in doers)
 
 

@@ -1,4 +1,4 @@
-"""What is done to an object that somebody waits for."""
+"""What is done to an object that code waits for."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ def wakings_of(world: RosWorld, reference: ResourceRef) -> list[Waking]:
     """
     What is done to an object.
 
-    A callback makes an object of its own each time; who ends the wait for one of them, from one
+    A callback makes an object of its own each time; what ends the wait for one of them, from one
     place, ends it for all, where nothing is seen that ends it for this one.
     """
     known = world.wakings.get(reference.number)

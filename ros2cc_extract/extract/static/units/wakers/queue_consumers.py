@@ -1,9 +1,9 @@
 """
-Threads that empty a queue round by round, and wait for nobody else meanwhile.
+Threads that empty a queue round by round, and wait for nothing else meanwhile.
 
-Whoever waits for room in it goes on when such a thread has taken the next item, however large the
-queue is and however often somebody puts: no number of runs uses it up. Whoever joins it goes on
-when such a thread has done the last one, and at once where there is none.
+Code that waits for room goes on when such a thread has taken the next item, however large the
+queue is and however often items are put: no number of runs uses it up. Code that joins it goes on
+when such a thread has done the last one, and at once if it is empty.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _ENDED_BY = {'Queue.put': Word.GET, 'Queue.join': Word.DONE}
 
 
 def may_find_it_done(raw: Blocking, wakings: Iterable[Waking], doer: Doer) -> bool:
-    """Whether who joins a queue has put nothing in itself: it may be empty, and all be done."""
+    """Whether code that joins a queue has put nothing in itself: it may be empty, and all done."""
     puts = (waking.by for waking in wakings if waking.word is Word.PUT)
     return raw.call == 'Queue.join' and not any(by is doer for by in puts)
 
@@ -89,7 +89,7 @@ def _ends_by_itself(block: Blocking) -> bool:
 
 
 def _is_ended_by_callbacks(loop: Blocking, world: RosWorld, doers: Sequence[Doer]) -> bool:
-    """Who ends the work of the thread while callbacks run leaves them without it."""
+    """What ends the work of the thread while callbacks run leaves them without it."""
     on = loop.resource if loop.resource is not None else loop.on
     if isinstance(on, DataRef):
         callbacks = [doer for doer in doers if isinstance(doer, EntityState)]
@@ -102,7 +102,7 @@ def _is_ended_by_callbacks(loop: Blocking, world: RosWorld, doers: Sequence[Doer
 
 
 def _may_be_locked_out(thread: ActivityState, doers: Sequence[Doer]) -> bool:
-    """Whether somebody holds, while it waits for others, a lock that the thread takes."""
+    """Whether a doer holds, while it waits for others, a lock that the thread takes."""
     mine = {act.name for act in thread.effects.locks}
     return any(
         not mine.isdisjoint(lock.removesuffix(RE_ENTRANT) for lock in block.held)

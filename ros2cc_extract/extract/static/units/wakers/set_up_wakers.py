@@ -24,7 +24,7 @@ def is_of_set_up(waking: Waking, world: RosWorld) -> bool:
 
 
 def ends_for_good(waking: Waking, reference: ResourceRef, world: RosWorld) -> bool:
-    """Whether, after ``waking`` in the set-up, nobody waits any more."""
+    """Whether, after ``waking`` in the set-up, nothing waits any more."""
     is_set = waking.word is Word.SET and reference.is_kept and not waking.conditional
     return is_set and reference.number not in world.cleared and is_of_set_up(waking, world)
 

@@ -1,7 +1,7 @@
 """
 Nested spins of nodes that nothing else serves: they end by what comes from outside, or by time.
 
-A helper node that has its own clients, as ``BasicNavigator`` of Nav2, is in no executor: whoever
+A helper node that has its own clients (``BasicNavigator`` of Nav2) is in no executor: code that
 asks it spins it until the answer has come. Nothing of the unit runs meanwhile, and nothing of the
 unit is needed, where no callback of the helper waits or takes a lock itself.
 
@@ -36,7 +36,7 @@ _TAKEN_AWAY = 'another spin of that executor may take the node away'
 
 
 def of_spin_aside(world: RosWorld, raw: Blocking, named: Blocking, doer: Doer) -> Blocking | None:
-    """Give a nested spin, or the wait for its future, with who ends it; ``None`` for any other."""
+    """Give a nested spin, or the wait for its future, with what ends it; ``None`` for others."""
     ender = _ender_of_spin(world, raw, doer)
     if ender is not None:
         return replace(named, wakers=(ender,))
@@ -48,7 +48,7 @@ def of_spin_aside(world: RosWorld, raw: Blocking, named: Blocking, doer: Doer) -
 
 
 def _ender_of_spin(world: RosWorld, raw: Blocking, doer: Doer) -> Waker | None:
-    """Who ends a nested spin, or the wait for its future; ``None`` where that is not known."""
+    """What ends a nested spin, or the wait for its future; ``None`` if that is not known."""
     spins = _spins_at(world, raw, doer)
     if not spins or not all(_is_aside(spin, world) for spin in spins):
         return None
@@ -57,7 +57,7 @@ def _ender_of_spin(world: RosWorld, raw: Blocking, doer: Doer) -> Waker | None:
     by = raw if raw.call == FOR_FUTURE else _future_of(raw, doer)
     if by is raw or (by is None and raw.seconds is None):
         return _ender(raw, spins, world)
-    # It is over when its future is, or its time; who ends that is told there.
+    # It is over when its future is, or its time; what ends that is found there.
     is_ended = by is None or _ender(by, spins, world) is not None
     return Waker(by=TIME, source=raw.source) if is_ended else None
 

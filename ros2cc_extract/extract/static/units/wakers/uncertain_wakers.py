@@ -1,8 +1,8 @@
 """
-Wakers that may be gone when somebody waits, or come before he does.
+Wakers that may be gone when code waits, or come before it does.
 
 A timer that is cancelled or never started, a callback whose entity or node is destroyed, and what
-runs once only, which a condition forgets when nobody waits yet. Sources: rclpy 7.1.6 and 9.1.2,
+runs once only, which a condition forgets if nothing waits yet. Sources: rclpy 7.1.6 and 9.1.2,
 ``node.py`` (``create_timer``), ``timer.py`` (``cancel``, ``reset``), ``executors.py``; CPython
 3.12, ``threading.py`` (``Condition.notify``). Where another waker is left, nothing is said.
 """
@@ -98,7 +98,7 @@ def _why_one_is_gone(
         return None
     its_name = name(waker) or 'a callback'
     if waker.dormant is not None and not waker.restarted:
-        return Unknown(f'nothing in sight starts the timer of {its_name}', waker.dormant)
+        return Unknown(f'no known code starts the timer of {its_name}', waker.dormant)
     for end in world.ends:
         if _is_of(end, waker) and not _ends_all(end, world) and not is_harmless(end):
             doer = 'a thread' if isinstance(end.doer, ActivityState) else 'a callback'
@@ -180,7 +180,7 @@ def why_lost(
     name: Names,
 ) -> Unknown | None:
     """
-    Why what ends a wait, which comes once only, may come before anybody waits.
+    Why what ends a wait, which comes once only, may come before the wait.
 
     What a condition forgets is the model's to say, see ``forgets``.
     """
@@ -219,7 +219,7 @@ def _when_lost(
 
 
 def _is_before(clear: tuple[object, Place], entities: int, mine: Sequence[Waking]) -> bool:
-    """Whether who clears an event asks only behind that for what sets it."""
+    """Whether code that clears an event asks only after that for what sets it."""
     by, _ = clear
     return all(
         isinstance(waking.by, EntityState)
@@ -258,7 +258,7 @@ def forgets(reference: ResourceRef, mine: Sequence[Waking], doer: Doer) -> bool:
 
 
 def is_unheard(waking: Waking, doer: Doer) -> bool:
-    """Whether a waker of a wait that ``forgets`` perhaps comes while nobody waits."""
+    """Whether a waker of a wait that ``forgets`` perhaps comes while nothing waits."""
     return not _is_modelled(waking, doer)
 
 

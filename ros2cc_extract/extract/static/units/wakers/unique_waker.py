@@ -1,4 +1,4 @@
-"""Who ends a wait for an event, a future, a queue …"""
+"""What ends a wait for an event, a future, a queue …"""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def the_setter(wakings: Sequence[Waking], words: frozenset[Word] = _SETTING) -> 
     The one callback that sets something; ``None`` where it may be set otherwise.
 
     Inputs of one message filter run one function in one group: the first stands for all, since
-    whatever keeps one of them from running keeps them all.
+    what keeps one of them from running keeps them all.
     """
     setters = [waking.by for waking in wakings if waking.word in words]
     first = setters[0] if setters else None

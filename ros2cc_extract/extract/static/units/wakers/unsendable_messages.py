@@ -1,9 +1,9 @@
 """
-Messages that nobody in sight can send before the wait that they end is over.
+Messages that no known code can send before the wait that they end is over.
 
 A program that publishes a topic itself, and only from callbacks that the waiting one keeps out of
 their group, goes on by a message that was on its way when the wait began, or by one of another
-process. Nobody knows of either. A topic that nobody in sight publishes is another matter: its
+process. Neither is known. A topic that no known code publishes is another matter: its
 messages are taken to come by themselves. Measured with rclpy 7.1.6 and 9.1.2.
 """
 
@@ -21,7 +21,7 @@ from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import EntityKind
 
 Doer = EntityState | ActivityState
-# They are there only when somebody has made them in the same run.
+# They are there only if they were made in the same run.
 _OF_A_RUN = (EntityKind.TASK, EntityKind.DONE_CALLBACK)
 
 
@@ -29,7 +29,7 @@ def unsent_before_end(
     raw: Blocking, sent: Collection[str], wakers: Sequence[object], doer: Doer, world: RosWorld
 ) -> str | None:
     """
-    The topics whose messages end a wait, where nobody in sight can publish one meanwhile.
+    The topics whose messages end a wait, if no known code can publish one meanwhile.
 
     :param sent: topics on which ``doer`` itself has published before; these are on their way.
     :param wakers: callbacks and activities that end it.
@@ -66,7 +66,7 @@ def is_first(raw: Blocking, reference: ResourceRef, doer: Doer) -> bool:
 
 
 def sent_in_hold(reference: ResourceRef, doer: Doer) -> frozenset[str]:
-    """The topics on which was published while whoever notifies had to wait for the lock."""
+    """The topics published on while the notifying code had to wait for the lock."""
     begun = reference.guard.begun if reference.guard is not None else frozenset()
     acts = (act for act in _effects(doer).publishes if act.source in begun)
     return frozenset(str(act.name).strip('/') for act in acts)
@@ -98,7 +98,7 @@ def _is_made(entity: EntityState) -> bool:
 def _running(
     doer: Doer, free: Sequence[Doer], published: Collection[str], sent: Collection[str]
 ) -> set[Doer]:
-    """Those of ``free`` that run by themselves or because of ``doer``, and whom these set off."""
+    """Those of ``free`` that run by themselves or because of ``doer``, and those they start."""
     runs: set[Doer] = set()
     on_its_way = set(sent)
 

@@ -1,5 +1,5 @@
 """
-Publishers that are destroyed while somebody else may publish by them.
+Publishers that are destroyed while other code may publish by them.
 
 Source: rclpy 7.1.6, ``publisher.py`` (``publish`` takes the handle, which raises ``InvalidHandle``
 when it was destroyed) and ``node.py`` (``destroy_publisher`` gives the handle back at once).
@@ -31,11 +31,11 @@ _Doer = EntityState | ActivityState
 
 
 def published_meanwhile(end: End, publisher: Instance, world: RosWorld) -> Iterator[Diagnostic]:
-    """Tell of the first who may still publish when ``end`` destroys ``publisher``."""
+    """Report the first that may still publish when ``end`` destroys ``publisher``."""
     for use in world.ends:
         is_of_it = use.kind == PUBLISHED and use.what is publisher
         if is_of_it and _may_meet(end, use):
-            yield _told(end, use, publisher)
+            yield _diagnostic(end, use, publisher)
             return
 
 
@@ -51,14 +51,14 @@ def _may_meet(end: End, use: End) -> bool:
 
 
 def _is_kept_apart(end: End, use: End) -> bool:
-    """Whether who destroys takes a lock before that under which is published."""
+    """Whether the destroying code first takes a lock under which is published."""
     effects = end.doer.effects or EffectLog()
     taken = {act.name for act in effects.locks} | set(end.locks)
     return not taken.isdisjoint(use.locks)
 
 
 def _has_joined(end: End, other: _Doer) -> bool:
-    """Whether who destroys the publisher waits for the end of that thread somewhere."""
+    """Whether the code that destroys the publisher waits for the end of that thread somewhere."""
     if not isinstance(other, ActivityState):
         return False
     runners = {id(runner) for runner in other.runners}
@@ -88,7 +88,7 @@ def _may_overlap(one: EntityState, other: EntityState) -> bool:
     return is_known and executors[0].state.threads != 1 and not is_shut
 
 
-def _told(end: End, use: End, publisher: Instance) -> Diagnostic:
+def _diagnostic(end: End, use: End, publisher: Instance) -> Diagnostic:
     state = publisher.state
     key = state.key if isinstance(state, PlainState) else None
     name = f' of {key.value!r}' if isinstance(key, Const) else ''

@@ -3,7 +3,7 @@ One executor that is spun at two places at the same time: by two threads, or by 
 
 Sources: rclpy 7.1.6 and 9.1.2, ``executors.py`` (``wait_for_ready_callbacks`` goes on with one
 generator while its arguments stay the same), ``__init__.py`` (``rclpy.spin…`` without an executor
-spins the global one, whatever the node). Measured on both: with equal time-outs one of the two
+spins the global one for every node). Measured on both: with equal time-outs one of the two
 ends by ``ValueError: generator already executing``; with others each waits for itself, now and
 then with an ``IndexError``. Newer releases refuse (ros2/rclpy pull request 1510).
 ``EventsExecutor`` is no such executor.
@@ -48,7 +48,7 @@ def are_concurrent(world: RosWorld, first: Spin, second: Spin) -> bool:
 
 
 def note_spun_twice(world: RosWorld) -> None:
-    """Tell of each spin beside another of its executor, when all was followed: the worst."""
+    """Report, after all was followed, the worst spin beside another spin of its executor."""
     by_place: dict[Place, Diagnostic] = {}
     for each in (*_by_threads(world), *_by_callbacks(world)):
         known = by_place.setdefault(each.place, each)
@@ -76,11 +76,11 @@ def _by_callbacks(world: RosWorld) -> Iterator[Diagnostic]:
                 is_same = _asks_the_same((spin.how, spin.timeout), (each.how, each.timeout))
                 other = f'it is spun by {spin.how} as well ({spin.place})'
                 yield _spun_twice(each.executor, each.how, each.place, other, is_same)
-    told: set[int] = set()
+    reported: set[int] = set()
     for one, rival in (*combinations(inside, 2), *zip(inside, inside, strict=True)):
-        is_told = id(one.entity) in told and id(rival.entity) in told
-        if one.executor is rival.executor and not is_told and may_overlap(one, rival):
-            told |= {id(one.entity), id(rival.entity)}
+        is_reported = id(one.entity) in reported and id(rival.entity) in reported
+        if one.executor is rival.executor and not is_reported and may_overlap(one, rival):
+            reported |= {id(one.entity), id(rival.entity)}
             is_same = _asks_the_same((one.how, one.timeout), (rival.how, rival.timeout))
             words = f'another callback, which may run at the same time, does too ({rival.place})'
             if one is rival:

@@ -2,7 +2,7 @@
 Subscriptions of a loop of asyncio that never let the loop go on.
 
 The task of a subscription takes the next message at once where there is one, and gives way to
-others only where its callback awaits, or where there is none. Source: rclpy 10.0.10 and 11.0.0,
+others only where its callback awaits, or if it has none. Source: rclpy 10.0.10 and 11.0.0,
 ``experimental/async_subscription.py`` (``_messages``, ``_run``).
 """
 
@@ -23,7 +23,7 @@ from ros2cc_extract.spec.model import EntityKind, GroupType
 
 
 def note_endless_readers(world: RosWorld) -> None:
-    """Tell of callbacks that in each run send themselves the next message."""
+    """Report callbacks that in each run send themselves the next message."""
     for entity in world.entities:
         if _gives_no_way(entity):
             for place in _sends_to_itself(entity):

@@ -57,12 +57,12 @@ _GOING = frozenset({'exit', '_exit', 'quit', 'shutdown', 'try_shutdown'})
 
 
 def note_ends(world: RosWorld) -> None:
-    """Tell of what nobody serves any more, when all was followed."""
-    found = (diagnostic for end in world.ends for diagnostic in _told(end, world))
+    """Report, after all was followed, what is no longer served."""
+    found = (diagnostic for end in world.ends for diagnostic in _diagnostics(end, world))
     world.diagnostics.extend(dict.fromkeys(found))
 
 
-def _told(end: End, world: RosWorld) -> Iterator[Diagnostic]:
+def _diagnostics(end: End, world: RosWorld) -> Iterator[Diagnostic]:
     doer = end.doer
     if isinstance(doer, EntityState):
         if end.kind == USED:
@@ -186,7 +186,7 @@ def _is_over(spin: Spin, end: End) -> bool:
 
 
 def _is_spun_beside(doer: ActivityState, spins: Sequence[Spin], world: RosWorld) -> bool:
-    """Whether anybody else spins meanwhile."""
+    """Whether other code spins meanwhile."""
     others = (spin.by for spin in spins if spin.by is not doer or doer.count != 1)
     return not all(go_in_turn(world, other, doer) for other in others)
 

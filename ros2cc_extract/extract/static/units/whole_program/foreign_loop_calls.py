@@ -25,7 +25,7 @@ _OF_THE_LOOP = frozenset({'call_soon', 'create_task'})
 
 
 def note_foreign_loops(world: RosWorld) -> None:
-    """Tell of what another thread than that of the loop does to what belongs to it."""
+    """Report what a thread other than that of the loop does to what belongs to the loop."""
     of_loops = {run.thread for run in world.loop_runs}
     of_loops |= {each.thread for each in world.activities if each.on_loop}
     if not world.loop_runs:

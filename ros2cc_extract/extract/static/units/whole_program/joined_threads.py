@@ -1,5 +1,5 @@
 """
-Threads that the set-up joins while nobody serves whoever would end what they wait for.
+Threads that the set-up joins while nothing serves the code that would end their waits.
 
 At the end of many programs a flag is cleared and the thread is joined that asks for it; but the
 thread stands in a wait that only callbacks end, and the spin that served them is over.
@@ -67,7 +67,7 @@ def never_joined(
     wait: OutsideWait, world: RosWorld, spun: Sequence[Instance]
 ) -> Iterator[Diagnostic]:
     """
-    The waits of a joined thread that nobody ends who is still there.
+    The waits of a joined thread that nothing ends that is still there.
 
     :param spun: the nodes that other threads spin meanwhile.
     """
@@ -81,24 +81,22 @@ def never_joined(
             goes_round = WORKING_LOOP in loops or (loops and block.call == RATE)
             asks_again = block.call in ANSWERS and way_of(block) in state.effects.looped
             goes_round = goes_round or asks_again or comes_back(block, state, world)
-            # Who is behind its only loop is behind what it asks in that.
+            # Code after its only loop is after what it asks in that.
             passed = (block, *around) if asks_again and len(around) == 1 else (block,)
-            has_told = any(has_told_of_it(each, state, wait, world) for each in passed)
-            goes_round = goes_round and not has_told
+            was_reported = any(is_reported(each, state, wait, world) for each in passed)
+            goes_round = goes_round and not was_reported
             if goes_round or not (wait.is_late or block.conditional):
                 why = why_for_ever(block, state, wait, world, spun)
                 if why is not None:
-                    yield _told(wait, block, why)
+                    yield _diagnostic(wait, block, why)
                     return
 
 
-def has_told_of_it(
-    block: Blocking, state: ActivityState, wait: OutsideWait, world: RosWorld
-) -> bool:
+def is_reported(block: Blocking, state: ActivityState, wait: OutsideWait, world: RosWorld) -> bool:
     """
     Whether the thread was behind the wait ``block`` by then, for good.
 
-    So it is where the program has waited before for what nobody but this thread ends, outside
+    So it is where the program has waited before for what only this thread ends, outside
     its loops and behind ``block``, as for a future that it makes done at its end.
     """
     behind = [way_of(each) for each in state.effects.blocking]
@@ -114,7 +112,7 @@ def has_told_of_it(
 
 
 def _awaited_before(wait: OutsideWait, world: RosWorld) -> Iterator[Instance]:
-    """What the program has waited for on its way to ``wait`` whatever branches it took."""
+    """What the program has waited for on its way to ``wait`` on every branch."""
     for each in world.outside[: world.outside.index(wait)]:
         is_before = each.call != JOIN and not each.in_thread and not wait.in_thread
         is_sure = wait.path[: len(each.path)] == each.path
@@ -146,7 +144,7 @@ def why_for_ever(
     world: RosWorld,
     spun: Sequence[Instance],
 ) -> str | None:
-    """Why nobody ends the wait ``block`` of the thread; ``None`` where somebody may."""
+    """Why nothing ends the wait ``block`` of the thread; ``None`` if something may."""
     if block.seconds is not None:
         return None
     if block.call == RATE:
@@ -211,7 +209,7 @@ def _why_asleep(block: Blocking, wait: OutsideWait, world: RosWorld) -> str | No
 
 
 def _waits_itself(spin: Spin, wait: OutsideWait) -> bool:
-    """Whether who spins is who waits, and that spin ends while rclpy is there still."""
+    """Whether the spinning thread is the one that waits, and its spin ends before rclpy does."""
     is_main = not spin.in_thread and not spin.from_callback and not wait.in_thread
     return is_main and not spin.for_ever and spin.how.endswith('spin_until_future_complete')
 
@@ -224,7 +222,7 @@ def _serves(spin: Spin, node: Instance) -> bool:
 
 def _have_given(wakings: Sequence[Waking], taker: ActivityState, wait: OutsideWait) -> bool:
     """
-    Whether those who give are over, and what they gave last need not be for the end.
+    Whether the givers are over, and what they gave last need not be for the end.
 
     So it is where both are ended by what their loops ask for: one that leaves its loop by itself
     may do so for an item, or put one first that says so.
@@ -258,7 +256,7 @@ _NEVER_CLEARED = 'and nobody ever writes that'
 _NOT_SPUN = 'and nothing spins the node whose callback would end that'
 
 
-def _told(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
+def _diagnostic(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
     at = f' ({block.source})' if block.source is not None else ''
     when = '' if why != _NOT_SPUN else ' any more' if wait.is_late else ' meanwhile'
     may = 'it may wait' if wait.is_late else 'it waits'

@@ -46,7 +46,7 @@ def graphs_of(world: RosWorld, entry: str | None) -> Iterator[NodeGraph]:
     for node in world.nodes:
         name, _ = _text(node.state.name)
         if node.state.ghost is not None or name is None:
-            name = node.state.ghost or Unknown('no name of the node is in sight', node.place)
+            name = node.state.ghost or Unknown('no name of the node is known', node.place)
         namespace, _ = _text(node.state.namespace)
         more = node.state.more
         yield NodeGraph(
@@ -100,7 +100,7 @@ def _of_publisher(publisher: PublisherState) -> Endpoint:
     name, assumed = _text(publisher.topic)
     return Endpoint(
         kind=EndpointKind.PUBLISHER,
-        name=name if name is not None else Unknown('no topic is in sight', publisher.place),
+        name=name if name is not None else Unknown('no topic is known', publisher.place),
         type=_type(publisher.type),
         qos=qos_of(publisher.qos),
         source=publisher.place,
@@ -113,7 +113,7 @@ def _of_entity(entity: EntityState, kind: EndpointKind, world: RosWorld) -> Endp
     name, assumed = _text(entity.key)
     return Endpoint(
         kind=kind,
-        name=name if name is not None else Unknown('no name is in sight', entity.place),
+        name=name if name is not None else Unknown('no name is known', entity.place),
         type=_type(entity.type),
         qos=qos_of(entity.qos),
         source=entity.place,

@@ -3,7 +3,7 @@ A thread spins a node for a while that another thread's executor serves: the nod
 
 ``rclpy.spin_once`` and ``rclpy.spin_until_future_complete`` add the node to an executor of their
 own, which takes it out of the one that has it, and take it out again when they are done. What a
-callback or ``main`` does is told where it is followed; a thread may be started before the other
+callback or ``main`` does is reported where it is followed. A thread may start before the other
 executor gets the node. Sources: rclpy 7.1.6 and 9.1.2, ``__init__.py``, ``node.py``
 (``Node.executor``), ``executors.py`` (``add_node``, ``remove_node``).
 """
@@ -22,9 +22,9 @@ _TAKES = 'rclpy.'
 
 
 def note_taken_by_threads(world: RosWorld) -> None:
-    """Tell of nodes that a thread takes out of an executor, when all was followed."""
-    told = {each.place for each in world.diagnostics if each.slug == SLUG}
-    found = (each for each in _thefts(world) if each.place not in told)
+    """Report, after all was followed, nodes that a thread takes out of an executor."""
+    reported = {each.place for each in world.diagnostics if each.slug == SLUG}
+    found = (each for each in _thefts(world) if each.place not in reported)
     world.diagnostics.extend(dict.fromkeys(found))
 
 
@@ -35,7 +35,7 @@ def _thefts(world: RosWorld) -> Iterator[Diagnostic]:
             continue
         for other in spins:
             if _is_beside(spin, number, other) and any(_robbed(spin, other)):
-                yield _told(spin, other)
+                yield _reported(spin, other)
                 break
 
 
@@ -54,7 +54,7 @@ def _robbed(spin: Spin, other: Spin) -> Iterator[bool]:
     yield from (node in served for node in spin.nodes)
 
 
-def _told(spin: Spin, other: Spin) -> Diagnostic:
+def _reported(spin: Spin, other: Spin) -> Diagnostic:
     name = other.executor.hint or 'the executor'
     kind = getattr(other.executor.state, 'kind', 'executor')
     return Diagnostic(

@@ -37,7 +37,7 @@ def waits_before(entity: EntityState, world: RosWorld) -> tuple[Place, ...]:
 
 
 def _is_endless(wait: SetUpWait, world: RosWorld) -> bool:
-    """Whether the main program stands there until it is answered, whatever branch it takes."""
+    """Whether the main program stands there until it is answered, on every branch."""
     block = wait.block
     is_of_main = wait.by is None and not wait.outside.in_thread and wait.uncalled is None
     is_endless = block.seconds is None or block.source in world.asked_until

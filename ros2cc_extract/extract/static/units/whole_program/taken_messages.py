@@ -1,8 +1,8 @@
 """
-``wait_for_message`` on a node that somebody spins meanwhile, and who takes the message then.
+``wait_for_message`` on a node that is spun meanwhile, and what takes the message then.
 
 It makes a subscription of the node, in its default group, and waits for it by a wait set of its
-own; an executor that spins the node meanwhile sees that subscription too. Who comes first takes
+own; an executor that spins the node meanwhile sees that subscription too. The first takes
 the message: the other one finds none, and ``wait_for_message`` gives ``(False, None)`` at once, or
 waits for the next one. Sources: rclpy 7.1.6 and 9.1.2, ``wait_for_message.py``, ``executors.py``
 (``_wait_for_ready_callbacks``, ``_take_subscription``: not while the group is closed).
@@ -28,8 +28,8 @@ from ros2cc_extract.spec.model import GroupType
 
 
 def note_taken(world: RosWorld) -> None:
-    """Tell of waits whose message the executor of the node may take, when all was followed."""
-    found = (_told(wait) for wait in world.message_waits if _is_taken(wait, world))
+    """Report, after all was followed, waits whose message the node's executor may take."""
+    found = (_diagnostic(wait) for wait in world.message_waits if _is_taken(wait, world))
     world.diagnostics.extend(dict.fromkeys(found))
 
 
@@ -70,7 +70,7 @@ def _spins_before_its_end(wait: MessageWait, world: RosWorld) -> int | None:
     return min(joins, default=None)
 
 
-def _told(wait: MessageWait) -> Diagnostic:
+def _diagnostic(wait: MessageWait) -> Diagnostic:
     who = 'another thread spins'
     if wait.by is not None:
         who = 'another thread of its executor serves'

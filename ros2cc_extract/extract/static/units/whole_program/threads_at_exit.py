@@ -1,8 +1,8 @@
 """
-Threads that keep the program when ``main`` is over, as nobody ends what they wait for.
+Threads that keep the program when ``main`` is over, as nothing ends their waits.
 
-The interpreter waits at its end for each thread that is no daemon, and for the threads of pools
-whatever they are (CPython 3.12, ``threading.py``, ``_shutdown``; ``concurrent/futures/thread.py``,
+The interpreter waits at its end for each thread that is no daemon, and for all threads of pools
+(CPython 3.12, ``threading.py``, ``_shutdown``; ``concurrent/futures/thread.py``,
 ``_python_exit``): it is as if ``main`` joined them. Measured with rclpy 7.1.6: a program whose
 thread stands in ``Queue.get`` outlives Ctrl-C.
 """
@@ -33,7 +33,7 @@ Serving = Callable[[OutsideWait], Sequence[Instance]]
 
 def kept_at_exit(world: RosWorld, spun_beside: Serving) -> Iterator[Diagnostic]:
     """
-    Tell of each thread that waits forever when the program has spun, once.
+    Report each thread that waits forever when the program has spun, once.
 
     :param spun_beside: gives the nodes that threads still spin at a wait of ``main``.
     """
@@ -54,12 +54,12 @@ def kept_at_exit(world: RosWorld, spun_beside: Serving) -> Iterator[Diagnostic]:
             )
             block = _stuck_block(state, exit_wait, world, spun_beside(exit_wait))
             if block is not None:
-                yield _told(state, block)
+                yield _diagnostic(state, block)
                 break
 
 
 def _ends_at_once(world: RosWorld) -> bool:
-    """Whether a text of the program ends the process without waiting for anybody."""
+    """Whether a text of the program ends the process without waiting."""
     return any(noted_on(tree, 'ends_at_once', _mentions_exit) for tree, _ in world.files)
 
 
@@ -131,7 +131,7 @@ def _goes_on(state: ActivityState, again: Place) -> Diagnostic:
         place=again,
         message='this timer thread is not a daemon and restarts itself in each run, and a cancel '
         'while its function runs has no effect: the program may never exit',
-        help='ask before, under a lock, for a flag that whoever stops it changes under that lock; '
+        help='before the restart, test a stop flag under a lock, and set it under that lock; '
         'or start it as a daemon',
     )
 
@@ -146,7 +146,7 @@ def _daemon(state: ActivityState) -> str:
     return 'run it in a daemon thread' if is_pool else 'start it with daemon=True'
 
 
-def _told(state: ActivityState, block: Blocking) -> Diagnostic:
+def _diagnostic(state: ActivityState, block: Blocking) -> Diagnostic:
     at = f' ({block.source})' if block.source is not None else ''
     return Diagnostic(
         severity=Severity.WARNING,

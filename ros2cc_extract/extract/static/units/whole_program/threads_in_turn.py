@@ -28,7 +28,7 @@ def _kept_alone(world: RosWorld, state: ActivityState) -> list[KeptIn]:
 
 
 def _is_one_piece(world: RosWorld, kept: KeptIn) -> bool:
-    """Whether nobody can start one between the test and the start of another."""
+    """Whether no code can start one between the test and the start of another."""
     starts = [start for each in world.activities for start in (each.alone or {}).get(kept, ())]
     locks = [{lock for lock, _ in holds} for _, holds in starts]
     groups = {_exclusive_group(by) for by, _ in starts}

@@ -1,5 +1,5 @@
 """
-Waits of code that is no callback, and whether anybody spins meanwhile.
+Waits of code that is no callback, and whether the node is spun meanwhile.
 
 Source: rclpy 7.1.6, ``client.py`` (``call`` waits for an event), ``__init__.py``
 (``spin_until_future_complete`` spins the given node alone), ``task.py`` (``__await__``),
@@ -33,18 +33,18 @@ from ros2cc_extract.spec.client_server_pairs import SERVER_KINDS
 
 
 def note_unanswered(world: RosWorld) -> None:
-    """Tell of waits whose answer nobody can take, or nobody can give, when all was followed."""
+    """Report, after all was followed, waits whose answer cannot be taken or given."""
     if any(_may_be_spun_elsewhere(node) for node in world.nodes):
         return
-    told = [each for wait in world.outside for each in _told(wait, world)]
-    worst = {each.place for each in told if each.severity is Severity.ERROR}
+    reported = [each for wait in world.outside for each in _diagnostics(wait, world)]
+    worst = {each.place for each in reported if each.severity is Severity.ERROR}
     world.diagnostics.extend(
-        each for each in told if each.severity is Severity.ERROR or each.place not in worst
+        each for each in reported if each.severity is Severity.ERROR or each.place not in worst
     )
     world.diagnostics.extend(kept_at_exit(world, lambda wait: tuple(spun_beside(wait, world))))
 
 
-def _told(wait: OutsideWait, world: RosWorld) -> Iterator[Diagnostic]:
+def _diagnostics(wait: OutsideWait, world: RosWorld) -> Iterator[Diagnostic]:
     if isinstance(wait.client, Instance):
         yield from _unended(wait, wait.client, world)
         return
@@ -65,7 +65,7 @@ def _may_be_spun_elsewhere(node: Instance) -> bool:
 
 
 def _unended(wait: OutsideWait, thing: Instance, world: RosWorld) -> Iterator[Diagnostic]:
-    """Nobody makes a future done, or only callbacks that nobody serves meanwhile end the wait."""
+    """Nothing completes a future, or only callbacks that are not served meanwhile end the wait."""
     spun = (*wait.spun, *spun_beside(wait, world))
     if wait.call == JOIN:
         yield from never_joined(wait, world, spun)
@@ -81,7 +81,7 @@ def _unended(wait: OutsideWait, thing: Instance, world: RosWorld) -> Iterator[Di
     nodes = [doer.node for doer in doers if isinstance(doer, EntityState)]
     if len(nodes) < len(doers) or any(node is each for node in nodes for each in spun):
         return
-    # What nobody touches may be meant to keep the program.
+    # An object without users may be meant to keep the program.
     is_meant = not nodes and not wait.in_thread and wait.call != 'Queue.get'
     yield _waits_for_ever(wait, name, has_node=bool(nodes), is_meant=is_meant)
 
@@ -111,7 +111,7 @@ def _waits_for_ever(wait: OutsideWait, name: str, *, has_node: bool, is_meant: b
 
 
 def _unwritten(wait: OutsideWait, world: RosWorld) -> Iterator[Diagnostic]:
-    """Only callbacks write what a loop looks at, and nobody serves them meanwhile."""
+    """Only callbacks write what a loop looks at, and they are not served meanwhile."""
     if any(_writes(state.effects, wait.names) for state in world.activities):
         return
     served = (*world.entities, *world.builtins)
@@ -153,7 +153,7 @@ def spun_beside(wait: OutsideWait, world: RosWorld) -> Iterator[Instance]:
 def spins_beside(
     wait: OutsideWait, world: RosWorld
 ) -> Iterator[tuple[Spin, tuple[Instance, ...]]]:
-    """The spins of other threads, with their nodes; which thread is which is not told apart."""
+    """The spins of other threads, with their nodes; threads are not distinguished."""
     for number, spin in enumerate(world.spins.values()):
         is_later = wait.begun is not None and number >= wait.begun
         is_beside = (spin.in_thread or wait.in_thread) and not is_later

@@ -74,7 +74,7 @@ def test_an_answer_from_outside(wait: str) -> None:
         (EVENT, 'status'),  # nothing is sent: messages are taken to come by themselves
         (f'{EVENT}\n        {SEND}', 'status'),
         (f'{SEND}\n        self.come.wait(timeout=1.0)', 'status'),
-        (f'{SEND}\n        {EVENT}', 'answer'),  # somebody in sight sends it
+        (f'{SEND}\n        {EVENT}', 'answer'),  # known code sends it
         (POLL.replace('time.sleep(0.1)', f'{SEND}\n            time.sleep(0.1)'), 'status'),
     ],
 )

@@ -108,7 +108,7 @@ def test_an_event_that_stays_set_is_waited_for_once() -> None:
     [
         (WAIT, {'of_tell': 'None'}),
         (WAIT, {'group': 'ReentrantCallbackGroup'}),
-        (WAIT, {'tell': 'pass'}),  # nothing in sight publishes: it is taken to come by itself
+        (WAIT, {'tell': 'pass'}),  # no known code publishes: it is taken to come by itself
         (WAIT, {'tell': STEP}),
         ('self.come.wait(timeout=1.0)', {}),
         (f'{GO}; {WAIT}', {}),

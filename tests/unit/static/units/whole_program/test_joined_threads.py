@@ -226,7 +226,7 @@ def test_a_join_after_the_thread_that_gives_has_ended(
 
 
 def _joins(text: str) -> list[Severity]:
-    """How grave what is told of joins is."""
+    """The severity of what is reported about joins."""
     found = scan_text(text).diagnostics
     return [each.severity for each in found if 'Thread.join' in each.message]
 

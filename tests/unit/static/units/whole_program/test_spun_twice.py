@@ -1,4 +1,4 @@
-"""One executor that two threads spin, told from one that is spun by one after the other."""
+"""One executor that two threads spin, as distinct from one that is spun by one after the other."""
 
 from __future__ import annotations
 

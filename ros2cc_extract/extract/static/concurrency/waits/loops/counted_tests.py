@@ -2,7 +2,7 @@
 How many writes it takes until a loop on plain data goes on.
 
 ``while self.arrived < 2: time.sleep(0.1)`` goes on behind the second ``self.arrived += 1``.
-Whoever adds one, and waits then itself, has not ended it.
+A callback that adds one and then waits itself has not ended the loop.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What the tests that end a loop ask for, as their text tells."""
+"""What the tests that end a loop ask for, by their text."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def names_assigned(part: ast.AST) -> Iterator[str]:
 
 
 def names_grown(part: ast.AST) -> Iterator[str]:
-    """Names whose object a method, an assignment to an item, or who gets it may change."""
+    """Names whose object a method, an assignment to an item, or a receiver may change."""
     if isinstance(part, ast.Call) and name_of(part) not in _NEUTRAL:
         yield from (each.id for each in part.args if isinstance(each, ast.Name))
     target = part.func if isinstance(part, ast.Call) else part
@@ -143,7 +143,7 @@ def name_of(call: ast.Call) -> str:
 
 
 def asks_object(test: ast.expr) -> bool:
-    """What is asked by a method is told where that is noted."""
+    """Whether a test asks an object; a question by a method is noted elsewhere."""
     return _calls_one_of(test, _ASKED)
 
 
@@ -170,7 +170,7 @@ def _counts(loop: ast.While) -> bool:
 
 
 def only_sleeps(loop: ast.While, tests: list[ast.expr]) -> bool:
-    """Whether it only sleeps until something is answered otherwise that no clock tells."""
+    """Whether it only sleeps until the answer to something that no clock changes is different."""
     called = {name_of(part) for test in tests for part in walk(test) if isinstance(part, ast.Call)}
     return is_idle(loop) and called.isdisjoint(_CLOCKS) and not _counts(loop)
 

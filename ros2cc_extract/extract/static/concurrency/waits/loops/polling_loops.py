@@ -1,7 +1,7 @@
 """
 Loops that do nothing but wait until somebody else has changed plain data.
 
-``while not self.arrived: time.sleep(0.1)`` waits as ``Event.wait`` does; who writes what the test
+``while not self.arrived: time.sleep(0.1)`` waits as ``Event.wait`` does; what writes what the test
 reads ends it.
 """
 
@@ -44,7 +44,12 @@ from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
 from ros2cc_extract.extract.static.program.retried_calls import is_retried
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Told, Word, told_by
+from ros2cc_extract.extract.static.python.machine.path_facts import (
+    Facts,
+    Implied,
+    Word,
+    implied_by,
+)
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
 from ros2cc_extract.extract.static.python.values.values import (
     Heaped,
@@ -88,13 +93,15 @@ def mark(machine: ConcurrentMachine) -> Mark | None:
     )
 
 
-def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told | None) -> None:
+def begin(
+    machine: ConcurrentMachine, loop: ast.While, frame: Frame, implied: Implied | None
+) -> None:
     """
     A ``while`` loop begins; one that only waits for a future is a busy wait.
 
     A coroutine that awaits in each round gives its thread back, as one that awaits the future.
 
-    :param told: what its test tells.
+    :param implied: what its test shows.
     """
     world = machine.world
     if world.effects is None and not is_idle(loop) and not asks_for_service(loop.test):
@@ -102,7 +109,7 @@ def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told 
     place = frame.place(loop)
     retry_loops.begin(machine, loop, frame)
     _note_rest(machine, loop, frame)
-    is_known = told is not None and _note_things(machine, loop, frame, told)
+    is_known = implied is not None and _note_things(machine, loop, frame, implied)
     if not is_known:
         is_known = _note_by_name(machine, loop, frame) or _note_answer(machine, loop, frame)
     if world.in_callback and not is_known and spins(loop):
@@ -118,7 +125,7 @@ def _note_rest(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Non
 
 
 def _note_by_name(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> bool:
-    """Whether the test asks something by the name of such a method; what it asks is told."""
+    """Whether the test asks something by the name of such a method; what it asks is noted."""
     is_known = False
     for part in ast.walk(loop.test):
         if (
@@ -191,15 +198,17 @@ def _gives_back(machine: ConcurrentMachine, loop: ast.While) -> bool:
     return frees and awaits_each_round(loop)
 
 
-def _note_things(machine: ConcurrentMachine, loop: ast.While, frame: Frame, told: Told) -> bool:
+def _note_things(
+    machine: ConcurrentMachine, loop: ast.While, frame: Frame, implied: Implied
+) -> bool:
     """Whether what happens to objects makes the test fail; the loop waits for that."""
     tests = list(exit_tests(loop))
     place = frame.place(loop)
     why = Unknown('the loop also ends otherwise', place)
     is_timed = any(ends_otherwise(machine, test, loop, frame) for test in tests)
     seconds = Mystery(why) if is_timed else None
-    needed, any_of_them = objects_of(told.fails), objects_of(told.breaks)
-    if told.is_either and any_of_them:
+    needed, any_of_them = objects_of(implied.fails), objects_of(implied.breaks)
+    if implied.is_either and any_of_them:
         things = choice([thing for thing, _ in any_of_them])
         _note_busy(machine, loop, things, seconds, frame)
     elif needed or (len(any_of_them) == 1 and not _others(machine, tests, loop, frame)):
@@ -216,7 +225,7 @@ def _others(
 ) -> bool:
     """Whether data or code that is not followed may end the loop too, beside an object."""
     parts = [part for test in tests for part in _operands(test)]
-    plain = [part for part in parts if not _tells(machine, part, frame)]
+    plain = [part for part in parts if not _shows_end(machine, part, frame)]
     shown = tests_of_data(machine, plain, loop, frame)
     seen = seen_by(machine, shown, frame)
     is_open = bool(seen.names) or seen.outside is not None
@@ -246,31 +255,31 @@ def ends_otherwise(
         return any(ends_otherwise(machine, each, loop, frame) for each in test.values)
     if isinstance(test, ast.UnaryOp):
         return ends_otherwise(machine, test.operand, loop, frame)
-    if _tells(machine, test, frame):
+    if _shows_end(machine, test, frame):
         return False
     return runs_out(test, loop) or asks_for_cancel(test)
 
 
-def _tells(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
-    return asks_object(test) or told_now(machine, test, frame) is not None
+def _shows_end(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> bool:
+    return asks_object(test) or implied_now(machine, test, frame) is not None
 
 
-def told_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Told | None:
-    """What a test tells where it stands, without any note of what it reads."""
+def implied_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Implied | None:
+    """What a test shows where it stands, without any note of what it reads."""
     world = machine.world
     noted, ready, world.effects = world.effects, world.ready, EffectLog()
     try:
-        return told_by(machine.evaluate(test, frame))
+        return implied_by(machine.evaluate(test, frame))
     finally:
         world.effects, world.ready = noted, ready
 
 
-def _told_by_exits(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Told | None:
-    """What makes a loop end whose test tells of it only after a round, or stands inside."""
+def _implied_by_exits(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Implied | None:
+    """What ends a loop whose test shows it only after a round, or stands inside."""
     for test in exit_tests(loop):
-        told = told_now(machine, test, frame)
-        if told is not None:
-            return told if test is loop.test else told.negated()
+        implied = implied_now(machine, test, frame)
+        if implied is not None:
+            return implied if test is loop.test else implied.negated()
     return None
 
 
@@ -286,10 +295,10 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
         return
     asked = machine.world.reading.asked.get(frame.place(loop))
     inside = effects.blocking[before.waits :]
-    if _is_told(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):
+    if _waits_inside(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):
         return
-    told = _told_by_exits(machine, loop, frame)
-    if told is not None and _note_things(machine, loop, frame, told):
+    implied = _implied_by_exits(machine, loop, frame)
+    if implied is not None and _note_things(machine, loop, frame, implied):
         return
     if not tests:
         if is_endless(loop) and machine.world.in_callback and not leaves(loop):
@@ -409,10 +418,10 @@ def _is_guarded(block: Blocking, asked: Asked | None) -> bool:
     return guard is not None and asked is not None and guard.hold in asked.holds
 
 
-def _is_told(
+def _waits_inside(
     machine: ConcurrentMachine, loop: ast.While, effects: EffectLog, before: Mark
 ) -> bool:
-    """Whether the loop is told by what it waits for inside; a thread's loop ends by its test."""
+    """Whether the waits inside stand for the loop; a thread's loop ends by its test."""
     inside = effects.blocking[before.waits :]
     others = [block for block in inside if not _is_pause(machine, block.call)]
     if any(b.call in ('busy wait', ANSWER_LOOP) or b.suspends or 'spin' in b.call for b in others):

@@ -49,7 +49,7 @@ def begin(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
 
 def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, first: int) -> bool:
     """
-    Tell what a loop waits for that ends only when an attempt succeeds; whether it is one.
+    Note what a loop waits for that ends only when an attempt succeeds; whether it is one.
 
     :param first: how many waits had been noted when it began.
     """

@@ -22,9 +22,9 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
 from ros2cc_extract.extract.static.concurrency.waits.loops.polling_loops import (
     POLL,
     ends_otherwise,
+    implied_now,
     objects_of,
     reference_to,
-    told_now,
 )
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import note_loop
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
@@ -71,8 +71,8 @@ def _note_spinning(machine: ConcurrentMachine, loop: ast.While, frame: Frame) ->
     end = getattr(loop, 'end_lineno', None) or loop.lineno
     place = frame.place(loop)
     spun = world.served_within(place.file, loop.lineno, end)
-    told = told_now(machine, loop.test, frame)
-    things = objects_of(told.fails | told.breaks) if told is not None else []
+    implied = implied_now(machine, loop.test, frame)
+    things = objects_of(implied.fails | implied.breaks) if implied is not None else []
     if things:
         is_timed = ends_otherwise(machine, loop.test, loop, frame)
         why = Mystery(Unknown('the loop also ends otherwise', place)) if is_timed else None

@@ -1,4 +1,4 @@
-"""What is assumed of values that whoever starts a node may set."""
+"""What is assumed of values that can be set when a node is started."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from ros2cc_extract.extract.static.python.values import assumed_defaults
 from ros2cc_extract.extract.static.python.values.values import Mystery
 
 AT_RUN_TIME = 'name of the node at run time'
-"""Why the name of a node is open: whoever starts it may give it another one."""
+"""Why the name of a node is open: the command that starts it may set another one."""
 
 
 def assumption(fact: str, value: Mystery) -> str:

@@ -1,7 +1,7 @@
 """
 Notes of what callbacks and threads end.
 
-``ends_while_served.py`` tells what becomes of whom they serve.
+``ends_while_served.py`` reports what happens to the code that they serve.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def note_end(
 ) -> None:
     """A callback, or a thread of the program's own, ends something."""
     world = machine.world
-    if world.retelling:
+    if world.second_pass:
         return
     doer = world.activity or (world.current if world.in_callback else None)
     if doer is not None and not world.shutting_down and not world.after_spin:

@@ -69,7 +69,7 @@ def hand_over(world: RosWorld, to: EntityState) -> None:
     """
     What a callback makes runs after it, and holds the flags that it may put down.
 
-    The names in its text decide. Where they mislead, a flag is stored by somebody who does not
+    The names in its text decide. Where they mislead, a flag is stored by code that does not
     hold it, and counts as no lock.
     """
     if world.effects is not None:

@@ -23,14 +23,14 @@ from ros2cc_extract.source_locations import Place
 
 def note_discarded(world: RosWorld, value: Value, place: Place) -> None:
     """A statement does nothing with the value of its call."""
-    if world.retelling:
+    if world.second_pass:
         return
-    told = _told(value, place)
-    if told is not None and told not in world.diagnostics:
-        world.diagnostics.append(told)
+    reported = _diagnostic(value, place)
+    if reported is not None and reported not in world.diagnostics:
+        world.diagnostics.append(reported)
 
 
-def _told(value: Value, place: Place) -> Diagnostic | None:
+def _diagnostic(value: Value, place: Place) -> Diagnostic | None:
     if isinstance(value, Coroutine):
         return _never_awaited(value.function.name, place)
     if not isinstance(value, Instance):

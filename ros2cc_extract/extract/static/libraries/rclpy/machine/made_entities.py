@@ -39,7 +39,7 @@ def entity_made_before(
     is_again = world.when is When.CALLBACK and known.state.when is When.CALLBACK
     if (
         not is_again
-        and not world.retelling
+        and not world.second_pass
         and not _made_while_missing(world, known.state, key, callback)
     ):
         return None
@@ -50,7 +50,7 @@ def entity_made_before(
 def _made_while_missing(
     world: RosWorld, known: EntityState, key: Value | None, callback: Value | None
 ) -> bool:
-    """Whether code that nobody in sight calls has made ``known`` here, behind the same test."""
+    """Whether code without a known caller has made ``known`` here, behind the same test."""
     tests = {place for place, _ in world.path} & world.missing
     return (
         world.when in (When.LATER, When.CALLBACK)

@@ -17,7 +17,7 @@ CALL = 'wait_for_message'
 def note(world: RosWorld, node: Value | None, place: Place, *, has_limit: bool) -> None:
     """Remember a wait for a message."""
     nodes = [each for each in options_of(node) if isinstance(each, Instance)] if node else []
-    if len(nodes) != 1 or not isinstance(nodes[0].state, NodeState) or world.retelling:
+    if len(nodes) != 1 or not isinstance(nodes[0].state, NodeState) or world.second_pass:
         return
     by = world.current if world.in_callback else None
     begun = None if world.in_thread or world.open_loops else len(world.spins)

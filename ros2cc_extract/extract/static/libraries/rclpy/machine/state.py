@@ -54,7 +54,7 @@ class NodeState(LibraryState):
     :param name: value of the name argument; ``None`` when none was seen.
     :param namespace: value of that argument.
     :param ghost: why it is not known which node it is; set for a node handed in from outside.
-    :param takes_any_parameter: its code may ask for parameters whose names are not in sight.
+    :param takes_any_parameter: its code may ask for parameters whose names are not known.
     :param has_own_arguments: it is made with arguments that stand for those of its process.
     :param parameter_callbacks: what runs when parameters are set, by stage, the latest first.
     :param more: why it may have entities that we do not see.
@@ -93,7 +93,7 @@ class NodeState(LibraryState):
         return thing
 
     def note_passed(self, function: str, place: Place) -> None:
-        """Who has it may make entities of it."""
+        """Note that code that has it may make entities of it."""
         self.more.append((f'the node is passed to {function}, which is not scanned', place))
 
     def doubt(self, reason: str, place: Place | None) -> None:
@@ -197,7 +197,7 @@ class EntityState(Doer, LibraryState):
 
     @property
     def has_own_text(self) -> bool:
-        """Whether it is made in the set-up, for one value, and is not told with others as one."""
+        """Whether it is made in the set-up, for one value, and is not merged with others."""
         return self.kind not in _MERGED and self.when is not When.CALLBACK
 
     @property
@@ -332,7 +332,7 @@ class RosWorld(ConcurrentWorld):
     :param current: the callback that is followed.
     :param admitted: flags that hold for an accepted goal, by node and place of the action server.
     :param open_to: those that were down when a goal was accepted, by the same.
-    :param message_waits: who waits for a message of which node, see ``taken_messages.py``.
+    :param message_waits: the waits for a message, with their nodes, see ``taken_messages.py``.
     :param publishers: by node, place and topic.
     :param parameters: what a launch sets for the nodes.
     :param loops: the executor that stands for a loop of asyncio, by where that begins.
@@ -378,7 +378,7 @@ class RosWorld(ConcurrentWorld):
 
     @property
     def spins_begun(self) -> int:
-        """How many spins there were, in whatever thread."""
+        """How many spins there were, in any thread."""
         return len(self.spins)
 
     @property

@@ -104,7 +104,7 @@ def _send_goal(machine: RosMachine, receiver: Value, call: Call) -> Value:
 
 
 def _send_goal_async(machine: RosMachine, receiver: Value, call: Call) -> Value:
-    """The feedback callback runs in the client's waitable, hence in its group."""
+    """The feedback callback runs in the client's waitable, so in its group."""
     assert isinstance(receiver, Instance)
     feedback = call.argument(1, 'feedback_callback')
     if (

@@ -103,7 +103,7 @@ def _leave(machine: RosMachine, receiver: Value, call: Call) -> Value:
 
 
 def _run(machine: RosMachine, receiver: Value, call: Call) -> Value:
-    """``node.run()`` goes on until somebody destroys the node."""
+    """``node.run()`` goes on until the node is destroyed."""
 
     def run(machine: RosMachine, _: Value, inner: Call) -> Value:
         if isinstance(receiver, Instance) and isinstance(receiver.state, NodeState):

@@ -1,5 +1,5 @@
 """
-Entities that nobody wrote: what rclpy makes for every node, publisher and subscription.
+Entities that no user wrote: what rclpy makes for every node, publisher and subscription.
 
 Sources: rclpy 7.1.6 and 9.1.2, ``node.py`` (which services, in which order),
 ``parameter_service.py``, ``logging_service.py``, ``type_description_service.py``,

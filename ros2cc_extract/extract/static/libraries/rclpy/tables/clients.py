@@ -220,7 +220,7 @@ def _absent(machine: RosMachine, receiver: Value, call: Call) -> Value:
 
 
 def _destroy_rate(machine: RosMachine, receiver: Value, call: Call) -> Value:
-    """Whoever sleeps by it wakes; its timer stays (``timer.py``, ``Rate.destroy``)."""
+    """Wake the code that sleeps by it; its timer stays (``timer.py``, ``Rate.destroy``)."""
     state = receiver.state if isinstance(receiver, Instance) else None
     machine.world.given.setdefault(id(state), Unknown('somebody destroys the rate', call.place))
     return NONE

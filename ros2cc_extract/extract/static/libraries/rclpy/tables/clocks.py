@@ -42,7 +42,7 @@ TOPIC = '/clock'
 def start_sim_time(
     machine: RosMachine, node: Instance, parameters: Iterable[Value], place: Place
 ) -> EntityState | None:
-    """The subscription of a node that is told to use simulated time."""
+    """The subscription of a node that is set to use simulated time."""
     state = node.state
     if not isinstance(state, NodeState) or state.sim_clock is not None:
         return None
@@ -73,7 +73,7 @@ def _is_sim_time(value: Value) -> bool:
 
 
 def note_sleep(machine: RosMachine, name: str, node: Value | None, place: Place) -> None:
-    """Somebody waits for the simulated time of ``node``, if that has any."""
+    """Note a wait for the simulated time of ``node``, if it has any."""
     clock = node.state.sim_clock if isinstance(node, Instance) else None
     if isinstance(clock, EntityState):
         _serve(machine.world, clock)
@@ -81,7 +81,7 @@ def note_sleep(machine: RosMachine, name: str, node: Value | None, place: Place)
 
 
 def _serve(world: RosWorld, clock: EntityState) -> None:
-    """What rclpy has made matters from here on: somebody waits for it."""
+    """What rclpy has made matters from here on: code waits for it."""
     known = world.by_node.setdefault(id(clock.node), [])
     if clock not in known and clock not in world.builtins:
         world.entities.append(clock)

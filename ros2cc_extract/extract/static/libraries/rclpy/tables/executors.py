@@ -219,7 +219,7 @@ def record_spin(
     timeout: Value | None = None,
 ) -> None:
     world = machine.world
-    if world.retelling:
+    if world.second_pass:
         return
     activities.spins(world, for_ever=ever)
     nodes = nodes_of(executor)

@@ -46,7 +46,7 @@ _PATIENCE_S = 0.1
 """So long the navigator spins while it looks whether a task is complete."""
 _MOVEIT = 'pymoveit2.MoveIt2'
 _PADDING_S = 2.0
-"""What a buffer client waits beyond the time-out it was given, unless told otherwise."""
+"""What a buffer client waits beyond the time-out it was given, unless another value is given."""
 
 
 def _make_buffer_client(machine: RosMachine, receiver: Value, call: Call) -> Value:

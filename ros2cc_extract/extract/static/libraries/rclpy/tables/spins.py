@@ -69,7 +69,7 @@ def _nested(
     machine: RosMachine, node: Instance, given: Value, how: str
 ) -> tuple[str, Instance | None, str]:
     """
-    What a callback does that spins ``node``: how that is called, who moves, and how.
+    What a callback does that spins ``node``: its name, what moves, and how.
 
     Nothing moves where the executor is named that serves the node, or that cannot be followed;
     nor where a node of no executor is spun on one that is named: it is as if that were spun.
@@ -102,7 +102,7 @@ def _spin_node(
     is_for_library: bool = False,
 ) -> None:
     node = as_node(machine, node_value)
-    if node is None or machine.world.retelling:
+    if node is None or machine.world.second_pass:
         return
     call, moved, change = _nested(machine, node, given, how)
     if machine.note_nested_spin(call, moved, given, future, place, change):
@@ -126,7 +126,7 @@ def _spin_node(
     _warn_of_theft(machine, node, executor, how, place)
     stays = not ever and node in nodes_of(executor)
     add_node(machine, executor, node)
-    # Nested spins tell the global executor by this name.
+    # Nested spins recognise the global executor by this name.
     called = f'rclpy.{how}' if executor.state.is_global else how
     record_spin(machine, executor, called, place, ever, future[1])
     machine.note_outside_wait(f'rclpy.{how}', *future, place, nodes_of(executor))
@@ -191,10 +191,10 @@ def _refused(how: str, place: Place) -> Diagnostic:
 
 def _is_spun_then(machine: RosMachine, executor: Instance) -> bool:
     """
-    Whether a thread spins ``executor`` when code runs that nobody in sight calls.
+    Whether a thread spins ``executor`` while code without a known caller runs.
 
     So it is where the program hands that on, as to a window, and the spin ends with rclpy or
-    never. What nobody names may be for use before the spin, or none at all.
+    never. What no code names may be for use before the spin, or none at all.
     """
     world = machine.world
     spins = [s for s in world.spins.values() if s.executor is executor]

@@ -1,4 +1,4 @@
-"""Tasks that an executor runs for nobody's entity: ``create_task``, done-callbacks."""
+"""Tasks that an executor runs without an entity: ``create_task``, done-callbacks."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def create_task(machine: RosMachine, receiver: Value, call: Call) -> Value:
 
 
 def note_its_end(machine: RosMachine, future: Value, place: Place) -> None:
-    """The future of a task is done when the task has ended, whoever asks for it."""
+    """The future of a task is done when the task has ended, no matter who asks for it."""
     world = machine.world
     world.kept.append(future)
     for entity in world.entities:
@@ -112,7 +112,7 @@ def _name_of(key: Value | None) -> object:
 
 
 def _code_of(value: Value | None) -> object:
-    """Equal for functions of one text on one object, whatever else they were given."""
+    """Return a key that is equal for functions of one text on one object, with any arguments."""
     if isinstance(value, Partial):
         return _code_of(value.function)
     if isinstance(value, Bound):

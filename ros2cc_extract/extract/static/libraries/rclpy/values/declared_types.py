@@ -1,5 +1,5 @@
 """
-Of which type a node declares its parameters.
+The types of the parameters that a node declares.
 
 Source: rclpy 7.1.6, ``node.py`` (``declare_parameters``: the type is that of the value, or the one
 that stands in its place; none with ``dynamic_typing``, and what a launch sets does not count with

@@ -82,7 +82,7 @@ def _given(machine: RosMachine, name: object, default: Value | None) -> Value | 
 
 
 def _is_settled(machine: RosMachine, node: Instance, name: Value | None) -> bool:
-    """Whether a launch sets it, and it is read before anybody may set it anew."""
+    """Whether a launch sets it, and it is read before it may be set again."""
     given = machine.world.parameters
     is_given = isinstance(name, Const) and (given.are_all or str(name.value) in given.values)
     if node.state.takes_any_parameter:

@@ -1,7 +1,7 @@
 """
 Quality of service: profiles keep how they were made, and what is set on them later.
 
-Source: rclpy 7.1.6, ``qos.py`` (what a profile is not told it takes from ``qos_profile_default``).
+Source: rclpy 7.1.6, ``qos.py`` (a profile takes what is not given from ``qos_profile_default``).
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """
-Pipes of a child process that nobody reads while its end is waited for.
+Pipes of a child process that are not read while its end is waited for.
 
 ``Popen.wait`` deadlocks when the child has written more than the pipe holds: it waits for a
-reader, and the only one waits for its end (CPython, library reference, ``subprocess``). Whoever
+reader, and the only one waits for its end (CPython, library reference, ``subprocess``). Code that
 asks for the stream before, or elsewhere in the program, counts as its reader.
 """
 
@@ -33,7 +33,7 @@ def _is_pipe(value: Value | None) -> bool:
 
 
 def note_read(world: ConcurrentWorld, child: Value) -> None:
-    """Somebody asks for a stream of ``child``, or lets ``communicate`` read them."""
+    """Code asks for a stream of ``child``, or lets ``communicate`` read them."""
     if isinstance(child, Instance):
         readers = world.readers.setdefault(child.place, [])
         if not any(world.effects is reader for reader in readers):
@@ -83,7 +83,7 @@ def _is_os(owner: ast.expr) -> bool:
 
 
 def unread_at(world: ConcurrentWorld, block: Blocking, effects: EffectLog) -> str | None:
-    """The stream that nobody reads while ``block`` lasts, of a child that is waited for."""
+    """The stream that is not read while ``block`` lasts, of a child that is waited for."""
     child, stream = effects.unread.get((block.source, block.chain), (None, None))
     if block.call != WAIT or child is None:
         return None

@@ -1,5 +1,5 @@
 """
-Commands that end at once: a program that waits for one waits for nobody.
+Commands that end at once: a program that waits for one hardly waits.
 
 Sources: POSIX.1-2017, *Utilities*; the manual pages of coreutils 9, procps-ng 4, psmisc 23,
 util-linux 2.38, alsa-utils 1.2, pulseaudio 16, WirePlumber 0.4, v4l-utils 1.22, systemd 252
@@ -82,7 +82,7 @@ def _is_one_short(words: _Words) -> bool:
 
 
 def _commands_in(text: str) -> list[_Words]:
-    """The commands of a line of the shell; one that nobody knows, where there is more in it."""
+    """The commands of a line of the shell; an unknown one, if there is more in it."""
     unknown: list[_Words] = [[]]
     if _OF_SHELL & set(text):
         return unknown

@@ -139,13 +139,13 @@ def shown_path(file: str) -> str:
 
 def limits_of(so_far: Exploration, points: int, sources: int) -> list[str]:
     """What this exploration did not look at, in sentences."""
-    told = []
+    reported = []
     if not sources:
-        told.append('no source was scanned: callbacks are ordered, but none is held inside')
+        reported.append('no source was scanned: callbacks are ordered, but none is held inside')
     elif not points:
-        told.append('no wait, lock or shared attribute was found: callbacks are only ordered')
+        reported.append('no wait, lock or shared attribute was found: callbacks are only ordered')
     if not so_far.begins:
-        told.append('no callback of the program began, or none that its group is asked for')
+        reported.append('no callback of the program began, or none that its group is asked for')
     if any(each.failure.kind is Kind.STANDS for each in so_far.found):
-        told.append('of what stands it is not decided whether it ends')
-    return told
+        reported.append('of what stands it is not decided whether it ends')
+    return reported
