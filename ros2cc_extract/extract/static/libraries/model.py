@@ -83,7 +83,7 @@ _DATA = (
     'types.',
     'yaml.',
 )
-"""What makes nothing but data; nobody else has a hand in that."""
+"""Libraries whose objects change only when the program changes them."""
 
 _INTERFACES = frozenset({'msg', 'srv', 'action'})
 
@@ -102,7 +102,7 @@ class _RosModel(LibraryModel):
         return self._by_last_name.get(last, name)
 
     def makes_data(self, name: str) -> bool:
-        """Messages, requests and goals are data, as rosidl generates their classes."""
+        """Messages, requests and goals are data: rosidl generates plain classes for them."""
         return super().makes_data(name) or not _INTERFACES.isdisjoint(name.split('.'))
 
     @cached_property

@@ -105,7 +105,7 @@ def _nested_spin(unit: Unit) -> Unknown | None:
 
 def _own_wait_set(world: RosWorld) -> Unknown | None:
     """
-    Why nobody knows what serves a node where the program waits for entities itself.
+    Why it is unknown what serves a node if the program waits for entities itself.
 
     Source: rclpy 9.1.2, ``executors.py``, where an executor makes a ``WaitSet`` for each wait.
     """

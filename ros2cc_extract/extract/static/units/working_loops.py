@@ -1,8 +1,8 @@
 """
-Threads that work in a loop which nothing ends, as ``while self.running:`` where nobody clears it.
+Threads that work in a loop which nothing ends: ``while self.running:`` with a flag never cleared.
 
-Such a loop is no wait: the thread works, as in ``while True:``. Only somebody who waits for what
-comes behind the loop waits for its end. Of ``main``, which may join it when the spin is over, see
+Such a loop is no wait: the thread works, as in ``while True:``. Only code that waits for what comes
+behind the loop waits for its end. For ``main``, which may join it when the spin is over, see
 ``whole_program/joined_threads.py``.
 """
 
@@ -18,14 +18,14 @@ from ros2cc_extract.spec.model import Activity, Callback
 def without_loops_for_good(
     activities: Sequence[Activity], callbacks: Iterable[Callback]
 ) -> tuple[Activity, ...]:
-    """``activities``, of which those that nobody waits for to get behind such a loop ``loops``."""
+    """``activities``; without such a loop, but with ``loops``, unless others wait for its end."""
     actors: list[Callback | Activity] = [*callbacks, *activities]
     behind = list(_behind(block for each in actors for block in each.blocking))
     return tuple(_without_loop(each, behind) for each in activities)
 
 
 def _behind(waits: Iterable[Blocking]) -> Iterator[tuple[str, int | None]]:
-    """Who ends a wait of others, and behind how many waits of his own."""
+    """The actors that end waits of others, each with the number of its own waits before that."""
     for block in waits:
         for waker in block.wakers:
             yield waker.by, waker.after

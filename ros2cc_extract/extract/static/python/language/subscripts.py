@@ -52,7 +52,7 @@ def subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
 def _note_filled(
     machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame: Frame
 ) -> None:
-    """A dictionary may put in what is asked for."""
+    """Reading a key may add it: ``collections.defaultdict``."""
     world = machine.world
     if world.effects is not None and any(_may_fill(each, key) for each in options_of(owner)):
         world.moves = ADDS

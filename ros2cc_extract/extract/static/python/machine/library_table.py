@@ -90,7 +90,7 @@ class LibraryModel:
         cannot be followed, something is missing.
     :param acting: names in whose text more is done than to compute something.
     :param waits: what ends each wait, by its name, see ``wait_table.py``.
-    :param data: how names begin of what makes objects that change only as the program says.
+    :param data: prefixes of names whose results change only when the program changes them.
     """
 
     def __init__(

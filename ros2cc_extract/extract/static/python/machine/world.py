@@ -130,8 +130,8 @@ class World:
     :param plain: whether a function works on plain data alone, by the identity of its statement.
     :param plain_of: how many modules that was asked of.
     :param spent: the steps that such calls have taken, by the same, and under 0 of all.
-    :param outside_objects: the results of code that is not followed, but for plain data; these
-        objects may change by themselves.
+    :param outside_objects: results of code that is not followed, except plain data; these objects
+        may change by themselves.
     :param handed_over: collections that such code was given.
     :param doubted: classes and functions behind code that is not scanned, and what that is.
     :param doubted_calls: how often these were called.

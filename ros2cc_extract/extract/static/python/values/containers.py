@@ -74,7 +74,7 @@ class Mapping(Collection):
     """
     A dictionary; slots: ``entries`` (key -> value), and those of a collection, by key.
 
-    :ivar fills: it puts in what is asked for and is not there, as ``collections.defaultdict``.
+    :ivar fills: reading a missing key adds it, as in ``collections.defaultdict``.
     """
 
     __slots__ = ('fills',)

@@ -1,4 +1,4 @@
-"""Threads in a loop that nothing ends, for whose end a callback or another thread waits."""
+"""Threads in an endless loop that a callback or another thread waits for."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def never_comes(waking: Waking, waiting: object) -> bool:
 
 
 def why_no_end(wakings: Iterable[Waking], waiting: object) -> Unknown | None:
-    """Why a thread may not end for whoever waits for its end while the program runs."""
+    """Why a thread may not end while the program runs and others wait for its end."""
     threads = (_endless(waking, waiting) for waking in wakings)
     thread = next((each for each in threads if each is not None), None)
     if thread is None:
@@ -32,7 +32,7 @@ def _endless(waking: Waking, waiting: object) -> ActivityState | None:
     """
     The thread whose end it is, if that loops and others wait for it.
 
-    ``main`` waits so that the program goes on, and is told of where the program ends.
+    ``main`` waits to keep the program running; ``threads_at_exit.py`` reports what never ends.
     """
     is_main = isinstance(waiting, ActivityState) and waiting.kind is ActivityKind.MAIN
     if is_main or waking.word is not Word.END or not isinstance(waking.by, ActivityState):

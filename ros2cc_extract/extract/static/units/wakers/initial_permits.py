@@ -41,7 +41,7 @@ def has_room(reference: ResourceRef, wakings: Sequence[Waking]) -> bool:
     """
     Whether it is the room in a queue that each run makes anew, and enough for all that is put in.
 
-    It is put there by whoever makes the queue, or by what is done once for each of its runs.
+    Only done-callbacks put into it, each once for a run of the callback that makes the queue.
     """
     puts = [waking for waking in wakings if waking.word is Word.PUT]
     is_once = all(not (each.in_loop or each.repeats) and _is_of_one_run(each.by) for each in puts)

@@ -1,4 +1,4 @@
-"""How a loop ends that waits: by data of the program, by itself, or nobody knows."""
+"""How a waiting loop ends: by data of the program, by itself, or in an unknown way."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class End(Enum):
     """What makes a test come out otherwise."""
 
     DATA = auto()
-    """Somebody writes what it reads, and nothing else does."""
+    """A write to what it reads, and nothing else."""
     ITSELF = auto()
     """Time passes, or a round of the loop changes it."""
     UNKNOWN = auto()
@@ -62,7 +62,7 @@ class Seen:
 
     :param names: of shared data.
     :param holders: the objects and attributes where that is.
-    :param outside: why something of that may change though nobody in sight writes it.
+    :param outside: why part of that may change without a write in the program.
     """
 
     names: frozenset[str]
@@ -125,7 +125,7 @@ def _changed_in(loop: ast.While, shared: set[str]) -> set[str]:
 
 
 def _answer(name: str, loop: ast.While) -> ast.expr | None:
-    """What each round asks somebody for, if that is all that it stores under ``name``."""
+    """The call whose result each round stores under ``name``, if it stores nothing else there."""
     value = copies_in(loop).get(name)
     is_asked = any(isinstance(part, ast.Call) for part in walk(value)) if value else False
     return value if is_asked else None
