@@ -1,7 +1,7 @@
 """
 Threads that work in a loop which nothing ends: ``while self.running:`` with a flag never cleared.
 
-Such a loop is no wait: the thread works, as in ``while True:``. Only code that waits for what comes
+Such a loop is no wait: the thread works, as in ``while True:``. Only code that waits for what is
 behind the loop waits for its end. For ``main``, which may join it when the spin is over, see
 ``whole_program/joined_threads.py``.
 """
