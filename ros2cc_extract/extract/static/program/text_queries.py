@@ -27,6 +27,8 @@ CHANGING_METHODS = frozenset(
         'setdefault',
         'sort',
         'update',
+        '__delitem__',
+        '__setitem__',
     }
 )
 """Methods of Python's collections that change their owner in place."""

@@ -193,6 +193,29 @@ def test_what_time_or_a_count_ends_ends_by_itself(loop: str) -> None:
     assert wait.seconds is not None
 
 
+WAIT_FOR_POSE = """
+    def wait_for_pose(self, timeout=None):
+        start = time.time()
+        while self.pose is None:
+            if timeout is not None and time.time() - start > timeout:
+                return False
+            time.sleep(0.1)
+        return True
+"""
+
+
+@pytest.mark.parametrize(('timeout', 'is_timed'), [('', False), ('5.0', True)])
+def test_a_way_out_that_is_never_taken_is_none(timeout: str, is_timed: bool) -> None:
+    text = PROGRAM.replace('    def peek(self)', f'{WAIT_FOR_POSE}\n    def peek(self)')
+    text = text.format(
+        made=POSE[0], written=POSE[1], loop=f'        self.wait_for_pose({timeout})'
+    )
+    (unit,) = scan_text(text).units
+    tick = next(each for each in unit.callbacks if each.name == 'tick')
+    (wait,) = (block for block in tick.blocking if block.call == 'polling loop')
+    assert (wait.seconds is not None) is is_timed
+
+
 def test_what_a_round_makes_shorter_is_no_wait() -> None:
     loop = """
     value = self.pose

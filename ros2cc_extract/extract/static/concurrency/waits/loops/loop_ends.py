@@ -12,6 +12,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.local_copies import (
     without_copies,
 )
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
+    exit_tests,
     is_neutral,
     name_of,
     names_assigned,
@@ -81,6 +82,35 @@ def seen_by(machine: ConcurrentMachine, tests: Iterable[ast.expr], frame: Frame)
         assert looked is not None
         names = frozenset(access.name for access in world.effects.reads)
         return Seen(names, frozenset(looked.holders), next(iter(looked.outside), None))
+    finally:
+        world.effects = noted
+
+
+def exits_of(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> list[ast.expr]:
+    """The tests that may end a loop: not ``if timeout is not None and …`` without a time-out."""
+    return [test for test in exit_tests(loop) if not _never_holds(machine, test, loop, frame)]
+
+
+def _never_holds(
+    machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: Frame
+) -> bool:
+    """Whether a test inside comes out false in every round."""
+    if test is loop.test:
+        return False
+    world, changed = machine.world, _changed_in(loop, set())
+    noted, world.effects = world.effects, EffectLog()
+
+    def is_surely(part: ast.expr, *, truth: bool) -> bool:
+        if isinstance(part, ast.UnaryOp) and isinstance(part.op, ast.Not):
+            return is_surely(part.operand, truth=not truth)
+        if isinstance(part, ast.BoolOp):
+            decides = any if isinstance(part.op, ast.Or) is truth else all
+            return decides(is_surely(each, truth=truth) for each in part.values)
+        names = {each.id for each in walk(part) if isinstance(each, ast.Name)}
+        return names.isdisjoint(changed) and machine.truth(machine.evaluate(part, frame)) is truth
+
+    try:
+        return is_surely(test, truth=False)
     finally:
         world.effects = noted
 

@@ -20,6 +20,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import (
     End,
     Seen,
     end_of,
+    exits_of,
     only_passes_time,
     seen_by,
     tests_of_data,
@@ -136,7 +137,7 @@ def _note_by_name(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> 
             is_known, waited = True, _ASKED[part.func.attr]
             if part.func.attr in ('done', 'is_set'):
                 owner = machine.evaluate(part.func.value, frame)
-                if _others(machine, list(exit_tests(loop)), loop, frame):
+                if _others(machine, exits_of(machine, loop, frame), loop, frame):
                     owner = machine.mystery(_FIRST_OF, frame.place(loop))
                 _note_busy(machine, loop, owner, None, frame)
             elif waited and _is_retried(part, frame):
@@ -202,7 +203,7 @@ def _note_things(
     machine: ConcurrentMachine, loop: ast.While, frame: Frame, implied: Implied
 ) -> bool:
     """Whether what happens to objects makes the test fail; the loop waits for that."""
-    tests = list(exit_tests(loop))
+    tests = exits_of(machine, loop, frame)
     place = frame.place(loop)
     why = Unknown('the loop also ends otherwise', place)
     is_timed = any(ends_otherwise(machine, test, loop, frame) for test in tests)
@@ -276,7 +277,7 @@ def implied_now(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> Imp
 
 def _implied_by_exits(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Implied | None:
     """What ends a loop whose test shows it only after a round, or stands inside."""
-    for test in exit_tests(loop):
+    for test in exits_of(machine, loop, frame):
         implied = implied_now(machine, test, frame)
         if implied is not None:
             return implied if test is loop.test else implied.negated()
@@ -290,7 +291,7 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
     _put_last(effects, before, frame.place(loop))
     _note_asked(machine, loop, effects, before, frame)
     _note_own_end(machine.world, loop, effects, before, frame)
-    tests = list(exit_tests(loop))
+    tests = exits_of(machine, loop, frame)
     if not tests and retry_loops.note(machine, loop, frame, before.waits):
         return
     asked = machine.world.reading.asked.get(frame.place(loop))
