@@ -25,7 +25,14 @@ from ros2cc_extract.spec.client_server_pairs import (
     is_done_callback,
     server_of,
 )
-from ros2cc_extract.spec.effects import ANSWER_LOOP, RECURSION_LIMIT, TIME, WORKING_LOOP, Blocking
+from ros2cc_extract.spec.effects import (
+    ANSWER_LOOP,
+    POLLING_LOOP,
+    RECURSION_LIMIT,
+    TIME,
+    WORKING_LOOP,
+    Blocking,
+)
 from ros2cc_extract.spec.model import Callback, EntityKind, exclude_each_other
 
 
@@ -145,6 +152,11 @@ def waits_of(context: Context) -> Iterator[Wait]:
             yield Wait(caller, block, kind_of(block), tuple(_needs(block, caller, context)))
 
 
+def polls_for_a_time(wait: AnyWait) -> bool:
+    """Whether it is a loop on plain data that ends in any case; CC109 explains the others."""
+    return wait.block.call == POLLING_LOOP and wait.has_timeout
+
+
 def _steps_this_unit(step: Blocking, context: Context) -> bool:
     unit = context.unit
     return step.call.endswith('.spin_once') and step.on in (*unit.nodes, unit.executor.name)
@@ -235,6 +247,9 @@ def how_long(wait: AnyWait, *, is_one: bool = True) -> str:
 def how_it_ends(waits: Sequence[Wait]) -> str:
     """Say what becomes of waits that nothing can end, of callbacks at one place."""
     wait, is_one = waits[0], len(callers_of(waits)) == 1
+    if wait.block.call == POLLING_LOOP:
+        runs = 'it goes' if is_one else 'they go'
+        return f'unless the data is there at once, {runs} on for all of its time'
     if wait.has_timeout:
         runs = 'it always times out' if is_one else 'they always time out'
         is_call = wait.block.call == _CALL

@@ -16,6 +16,7 @@ from ros2cc_extract.findings.waits.waits import (
     at_one_place,
     callers_of,
     how_it_ends,
+    polls_for_a_time,
     waits_in,
     waits_of,
     ways_of_others,
@@ -31,7 +32,9 @@ def find(context: Context) -> Iterator[Hit]:
     waits = [
         wait
         for wait in waits_of(context)
-        if wait.kind in BLOCKING and wait.needs and not surely_ends(wait, context)
+        if (wait.kind in BLOCKING or polls_for_a_time(wait))
+        and wait.needs
+        and not surely_ends(wait, context)
     ]
     for alike in at_one_place(waits):
         yield _hit(alike, context)

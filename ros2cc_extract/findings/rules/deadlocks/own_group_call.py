@@ -16,6 +16,7 @@ from ros2cc_extract.findings.waits.waits import (
     at_one_place,
     callers_of,
     how_it_ends,
+    polls_for_a_time,
     waits_in,
     waits_of,
     ways_of_others,
@@ -35,7 +36,8 @@ def find(context: Context) -> Iterator[Hit]:
     found: list[Wait] = []
     for wait in waits_of(context):
         counts = wait.kind is WaitKind.SPUN_FUTURE and honours_groups(executor)
-        if counts or (wait.kind in BLOCKING and not one_thread):
+        is_blocking = wait.kind in BLOCKING or polls_for_a_time(wait)
+        if counts or (is_blocking and not one_thread):
             is_shut_out = shut_out_by(wait, context) is not None
             if is_shut_out and not surely_ends(wait, context):
                 found.append(wait)

@@ -97,8 +97,7 @@ def _never_holds(
     """Whether a test inside comes out false in every round."""
     if test is loop.test:
         return False
-    world, changed = machine.world, _changed_in(loop, set())
-    noted, world.effects = world.effects, EffectLog()
+    changed = _changed_in(loop, set())
 
     def is_surely(part: ast.expr, *, truth: bool) -> bool:
         if isinstance(part, ast.UnaryOp) and isinstance(part.op, ast.Not):
@@ -107,12 +106,12 @@ def _never_holds(
             decides = any if isinstance(part.op, ast.Or) is truth else all
             return decides(is_surely(each, truth=truth) for each in part.values)
         names = {each.id for each in walk(part) if isinstance(each, ast.Name)}
-        return names.isdisjoint(changed) and machine.truth(machine.evaluate(part, frame)) is truth
+        if not names.isdisjoint(changed) or seen_by(machine, [part], frame).names:
+            return False
+        options = _evaluated(machine, part, frame)
+        return bool(options) and all(machine.truth(each) is truth for each in options)
 
-    try:
-        return is_surely(test, truth=False)
-    finally:
-        world.effects = noted
+    return is_surely(test, truth=False)
 
 
 def tests_of_data(

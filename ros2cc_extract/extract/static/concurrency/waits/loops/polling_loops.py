@@ -385,6 +385,8 @@ def _note(
     shown = tests_of_data(machine, tests, loop, frame)
     end = end_of(machine, shown, loop, frame)
     is_waiting = only_passes_time(loop, tests)
+    if end is End.ITSELF and not is_waiting:
+        return  # it works, and looks at the data in between
     is_open = end is not End.ITSELF and (
         seen.outside is not None or (end is End.UNKNOWN and is_waiting)
     )
