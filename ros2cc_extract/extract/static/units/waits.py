@@ -70,7 +70,6 @@ from ros2cc_extract.spec.effects import (
     POLLING_LOOP,
     TIME,
     Blocking,
-    Needs,
     Waker,
 )
 from ros2cc_extract.spec.model import ActivityKind
@@ -208,7 +207,7 @@ class UnitWaits(DataWriters):
         if spin is not None:
             return spin
         if isinstance(raw.on, ClockRef):
-            return replace(named, wakers=self._movers(named.on, raw.on), needs=Needs.ALL)
+            return self._of_clock(raw.on, named)
         if isinstance(raw.on, TopicRef):
             senders = tuple(dict.fromkeys(self._senders(raw.on))) or (Waker(by=OUTSIDE),)
             return replace(named, wakers=senders)

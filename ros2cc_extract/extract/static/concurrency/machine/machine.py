@@ -8,6 +8,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWo
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ClockRef, DataRef
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.source_locations import Place, Unknown
 
@@ -48,6 +49,14 @@ class ConcurrentMachine(Machine, ABC):
         spun: tuple[Instance, ...] = (),
     ) -> None:
         """A loop goes on until somebody else has written what its test reads."""
+
+    @abstractmethod
+    def note_clock(self, name: str, clock: Doer, place: Place, on: DataRef | None = None) -> None:
+        """
+        Somebody waits for time that ``clock`` moves.
+
+        :param on: the data by which the wait ends as well.
+        """
 
     @abstractmethod
     def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:

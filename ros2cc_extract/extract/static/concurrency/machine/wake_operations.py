@@ -141,7 +141,13 @@ class DataRef(EntityRef):
 
 
 class ClockRef(EntityRef):
-    """Stands for simulated time, which the subscription of ``number`` moves."""
+    """
+    Stands for simulated time, which the subscription of ``number`` moves.
+
+    :param data: what ends the wait as well.
+    """
+
+    data: DataRef | None = None
 
 
 class TopicRef(EntityRef):

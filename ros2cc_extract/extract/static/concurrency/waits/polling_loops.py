@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 from dataclasses import replace
 
+from ros2cc_extract.extract.static.concurrency import simulated_time
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
@@ -243,6 +244,8 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
     """After one round of ``loop``."""
     effects = machine.world.effects
     if before is None or effects is None:
+        if simulated_time.note(machine, loop, frame):
+            return
         _note_set_up(machine, loop, frame)
         _note_spinning(machine, loop, frame)
         return
@@ -254,6 +257,8 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
     asked = machine.world.reading.asked.get(frame.place(loop))
     inside = effects.blocking[before.waits :]
     if _is_told(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):
+        return
+    if simulated_time.note(machine, loop, frame):
         return
     told = _told_by_exits(machine, loop, frame)
     if told is not None and _note_things(machine, loop, frame, told):

@@ -23,7 +23,7 @@ from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_off_
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import OUTSIDE, WORKING_LOOP, Access, Act, Blocking, Waker
+from ros2cc_extract.spec.effects import OUTSIDE, WORKING_LOOP, Access, Act, Blocking, Needs, Waker
 
 Doer = EntityState | ActivityState
 
@@ -73,6 +73,15 @@ class DataWriters:
         if not any(self._senders(TopicRef(topic))):
             by.append(OUTSIDE)
         return tuple(Waker(by=each) for each in dict.fromkeys(by))
+
+    def _of_clock(self, clock: ClockRef, named: Blocking) -> Blocking:
+        """A wait for simulated time; what its data is by then may end it as well."""
+        movers = self._movers(named.on, clock)
+        writers = () if clock.data is None else tuple(dict.fromkeys(self._writers(clock.data)))
+        if clock.data is None or not writers:
+            return replace(named, wakers=movers, needs=Needs.ALL)
+        why = data_is_written_elsewhere(self._world, clock.data.names)
+        return replace(named, wakers=(*writers, movers[0]), escapes=named.escapes or why)
 
     def _writers(self, on: DataRef) -> Iterator[Waker]:
         for doer, access in self._writes(on):
