@@ -89,7 +89,7 @@ class Waits(ConcurrentMachine):
         is_ready = row.unless_asked and world.is_ready(on, row.ended_by)
         if is_ready and row.rival is None:
             return
-        if effects is None or _is_main(world.activity):
+        if effects is None or is_main(world.activity):
             self._note_outside(name, on, seconds, place)
             outside_waits.note_interruptible(world, name, on)
         elif world.is_set_up_on_loop:
@@ -99,7 +99,7 @@ class Waits(ConcurrentMachine):
             values_during_waits.note_met(world, thing)
             self._note_in_set_up(block, thing, place)
             return
-        if _is_main(world.activity):
+        if is_main(world.activity):
             self._note_in_set_up(block, thing, place)
         touch(world.activity, thing)
         if thing is not None:
@@ -227,7 +227,7 @@ class Waits(ConcurrentMachine):
     ) -> None:
         """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
         self._note_outside(name, on, seconds, place, spun)
-        if on is not None and (self.world.effects is None or _is_main(self.world.activity)):
+        if on is not None and (self.world.effects is None or is_main(self.world.activity)):
             call = name if name in self.model.waits else SPIN_UNTIL
             block, thing = self._block(call, on, seconds, place)
             values_during_waits.note_met(self.world, thing)
@@ -349,7 +349,7 @@ def _topic(name: Value | None, place: Place) -> TopicRef | Unknown:
     return name.unknown if isinstance(name, Mystery) else unknown
 
 
-def _is_main(activity: ActivityState | None) -> bool:
+def is_main(activity: ActivityState | None) -> bool:
     return activity is not None and activity.kind is ActivityKind.MAIN
 
 
