@@ -2,8 +2,8 @@
 Locks that a handler of a signal takes, and that the main thread may hold when the signal comes.
 
 The handler runs between two lines of the main thread, which goes on only behind it: a
-``threading.Lock`` that the main thread holds is never given back. An ``RLock`` is its own then, and
-one that another thread holds is given back meanwhile.
+``threading.Lock`` that the main thread holds is never given back. An ``RLock`` may be taken again,
+and what another thread holds is given back meanwhile.
 Sources: CPython 3.12, ``signal`` (handlers run in the main thread); rclpy 7.1.6, ``executors.py``
 (a ``MultiThreadedExecutor`` runs callbacks in threads of a pool). Measured on 7.1.6.
 """
@@ -104,7 +104,7 @@ def _told(handler: ActivityState, act: Act, held: _Take) -> Diagnostic:
         slug='lock-order',
         place=act.source or handler.place,
         message=f'{_called(handler.target)}, which handles a signal, takes {act.name}, which '
-        f'{who} holds in the same thread when the signal comes: it waits for what it interrupts, forever',
+        f'{who} may hold in the same thread: it waits for what it has interrupted, forever',
         help='only store a flag in the handler, or use a threading.RLock',
         related=(
             RelatedPlace(held.place, f'{act.name} is taken here, in the main thread'),

@@ -9,9 +9,9 @@ from ros2cc_extract.extract.static.concurrency.activities import is_activity
 from ros2cc_extract.extract.static.concurrency.machine.counters import MOST
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
-    ClockRef,
     DataRef,
     EntityRef,
+    MessageRef,
     ResourceRef,
     SettableRef,
     TopicRef,
@@ -164,7 +164,7 @@ class UnitWaits(DataWriters):
             return replace(raw, on=self._the_writer(raw.on), resource=str(raw.on))
         if isinstance(raw.on, TopicRef):
             return replace(raw, on=str(raw.on), resource=str(raw.on))
-        if isinstance(raw.on, ClockRef):
+        if isinstance(raw.on, MessageRef):
             return replace(raw, on=self._names.get(raw.on.number), resource=str(raw.on))
         on = _waited_name(raw.on, self._settled)
         if isinstance(resource, ResourceRef):
@@ -206,8 +206,8 @@ class UnitWaits(DataWriters):
         spin = of_spin_aside(self._world, raw, named, doer)
         if spin is not None:
             return spin
-        if isinstance(raw.on, ClockRef):
-            return self._of_clock(raw.on, named)
+        if isinstance(raw.on, MessageRef):
+            return self._of_messages(raw.on, named)
         if isinstance(raw.on, TopicRef):
             senders = tuple(dict.fromkeys(self._senders(raw.on))) or (Waker(by=OUTSIDE),)
             return replace(named, wakers=senders)

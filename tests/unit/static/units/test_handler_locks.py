@@ -87,8 +87,8 @@ def test_what_the_main_thread_holds_is_never_given_back(given: dict[str, str], w
     (one,) = told(**given)
 
     assert one.message == (
-        f'Base.on_signal, which handles a signal, takes lock, which {who} holds in the same thread '
-        'when the signal comes: it waits for what it interrupts, forever'
+        f'Base.on_signal, which handles a signal, takes lock, which {who} may hold in the same '
+        'thread: it waits for what it has interrupted, forever'
     )
     assert [each.text for each in one.related] == [
         'lock is taken here, in the main thread',

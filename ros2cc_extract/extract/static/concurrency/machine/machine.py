@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
-from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ClockRef, DataRef
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, MessageRef
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
@@ -43,7 +43,7 @@ class ConcurrentMachine(Machine, ABC):
     def note_loop_on_data(
         self,
         name: str,
-        on: DataRef | ClockRef | Unknown,
+        on: DataRef | MessageRef | Unknown,
         seconds: Unknown | None,
         place: Place,
         spun: tuple[Instance, ...] = (),
@@ -51,9 +51,11 @@ class ConcurrentMachine(Machine, ABC):
         """A loop goes on until somebody else has written what its test reads."""
 
     @abstractmethod
-    def note_clock(self, name: str, clock: Doer, place: Place, on: DataRef | None = None) -> None:
+    def note_messages(
+        self, name: str, brings: Doer, place: Place, on: DataRef | None = None
+    ) -> None:
         """
-        Somebody waits for time that ``clock`` moves.
+        Somebody waits for what the messages of a subscription bring.
 
         :param on: the data by which the wait ends as well.
         """

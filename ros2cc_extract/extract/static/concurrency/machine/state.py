@@ -232,7 +232,8 @@ class ConcurrentWorld(World):
     :param asked_until: calls in the tests of loops that only their answer ends.
     :param retried: calls that a loop tries again and again until they raise no error.
     :param asked_outside: calls by which a library asks others outside whether something is over.
-    :param asked_clocks: what moves the simulated clocks that were asked for their time.
+    :param asked_messages: the subscriptions that bring what was asked for: the time of simulated
+        clocks, transforms.
     :param over: what it has ended.
     """
 
@@ -276,7 +277,7 @@ class ConcurrentWorld(World):
     asked_until: set[Place] = field(default_factory=set)
     retried: set[Place] = field(default_factory=set)
     asked_outside: set[Place] = field(default_factory=set)
-    asked_clocks: list[Doer] = field(default_factory=list)
+    asked_messages: list[Doer] = field(default_factory=list)
     over: list[Over] = field(default_factory=list)
     timed_joins: list[TimedJoin] = field(default_factory=list)
     after_spin: bool = False

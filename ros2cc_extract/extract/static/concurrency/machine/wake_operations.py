@@ -140,9 +140,9 @@ class DataRef(EntityRef):
     before: frozenset[tuple[str, Place | None]] = frozenset()
 
 
-class ClockRef(EntityRef):
+class MessageRef(EntityRef):
     """
-    Stands for simulated time, which the subscription of ``number`` moves.
+    Stands for what messages bring to the subscription of ``number``: simulated time, transforms.
 
     :param data: what ends the wait as well.
     """

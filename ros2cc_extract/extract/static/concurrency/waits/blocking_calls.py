@@ -10,9 +10,9 @@ from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_o
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
-    ClockRef,
     DataRef,
     EntityRef,
+    MessageRef,
     ResourceRef,
     SettableRef,
     TopicRef,
@@ -144,7 +144,7 @@ class Waits(ConcurrentMachine):
     def note_loop_on_data(
         self,
         name: str,
-        on: DataRef | ClockRef | Unknown,
+        on: DataRef | MessageRef | Unknown,
         seconds: Unknown | None,
         place: Place,
         spun: tuple[Instance, ...] = (),

@@ -72,10 +72,10 @@ def note(
         _remember(world, name, client, place, spun)
 
 
-def note_clock(world: ConcurrentWorld, name: str, clock: Doer, place: Place) -> None:
-    """The set-up waits for simulated time, which ``clock`` moves."""
+def note_messages(world: ConcurrentWorld, name: str, brings: Doer, place: Place) -> None:
+    """The set-up waits for what the messages of a subscription bring."""
     if world.when is When.START and not world.after_spin and world.is_program:
-        _remember(world, name.replace(POLLING_LOOP, 'a polling loop'), clock, place, ())
+        _remember(world, name.replace(POLLING_LOOP, 'a polling loop'), brings, place, ())
 
 
 def note_in_loop(world: ConcurrentWorld, awaited: Value, place: Place) -> None:

@@ -8,9 +8,10 @@ reads ends it.
 from __future__ import annotations
 
 import ast
+from collections.abc import Sequence
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.concurrency import simulated_time
+from ros2cc_extract.extract.static.concurrency import message_loops
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
@@ -244,7 +245,8 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
     """After one round of ``loop``."""
     effects = machine.world.effects
     if before is None or effects is None:
-        if simulated_time.note(machine, loop, frame):
+        is_told = message_loops.note(machine, loop, frame)
+        if is_told or retry_loops.note_in_set_up(machine, loop, frame):
             return
         _note_set_up(machine, loop, frame)
         _note_spinning(machine, loop, frame)
@@ -256,9 +258,9 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
         return
     asked = machine.world.reading.asked.get(frame.place(loop))
     inside = effects.blocking[before.waits :]
-    if _is_told(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):
+    if _only_asks(machine, inside) and message_loops.note(machine, loop, frame):
         return
-    if simulated_time.note(machine, loop, frame):
+    if _is_told(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):
         return
     told = _told_by_exits(machine, loop, frame)
     if told is not None and _note_things(machine, loop, frame, told):
@@ -426,6 +428,11 @@ def _is_told(
     if any(b.call in ('busy wait', ANSWER_LOOP) or b.suspends or 'spin' in b.call for b in others):
         return True
     return bool(others) and machine.world.activity is None
+
+
+def _only_asks(machine: ConcurrentMachine, inside: Sequence[Blocking]) -> bool:
+    """Whether its rounds wait for nothing but time, and for what it asks for itself."""
+    return all(_is_pause(machine, b.call) or message_loops.is_asking(b.call) for b in inside)
 
 
 def _is_pause(machine: ConcurrentMachine, call: str) -> bool:

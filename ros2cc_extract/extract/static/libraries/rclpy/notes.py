@@ -6,7 +6,7 @@ import ast
 
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifications
 from ros2cc_extract.extract.static.concurrency.activities import run_in_thread
-from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ClockRef, DataRef
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, MessageRef
 from ros2cc_extract.extract.static.concurrency.waits import cleared_events, outside_waits
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import called_name
 from ros2cc_extract.extract.static.libraries.rclpy.machine import end_operations, lost_tasks
@@ -225,15 +225,17 @@ class RosNotes(StandardBlocks, RosMachine):
             self.note_blocking(clock, None, slept(call), call.place)
         return clock is not None
 
-    def note_clock(self, name: str, clock: Doer, place: Place, on: DataRef | None = None) -> None:
-        """Somebody waits for time that ``clock`` moves, or for data beside it."""
-        if isinstance(clock, EntityState):
-            serve(self.world, clock)
+    def note_messages(
+        self, name: str, brings: Doer, place: Place, on: DataRef | None = None
+    ) -> None:
+        """Somebody waits for what ``brings`` takes, or for data beside it."""
+        if isinstance(brings, EntityState) and brings.builtin:
+            serve(self.world, brings)
         if self.world.effects is None:
-            outside_waits.note_clock(self.world, name, clock, place)
+            outside_waits.note_messages(self.world, name, brings, place)
             return
-        reference = ClockRef('/clock')
-        reference.number, reference.data = id(clock), on
+        reference = MessageRef(brings.topic)
+        reference.number, reference.data = id(brings), on
         self.note_loop_on_data(name, reference, None, place)
 
     def note_publish(self, publisher: Value, place: Place) -> None:

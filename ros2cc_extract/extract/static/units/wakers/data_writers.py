@@ -9,8 +9,8 @@ from ros2cc_extract.extract.static.concurrency.activities import is_activity
 from ros2cc_extract.extract.static.concurrency.machine.counters import MOST, Rise
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
-    ClockRef,
     DataRef,
+    MessageRef,
     TopicRef,
 )
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
@@ -67,20 +67,20 @@ class DataWriters:
                 if access.name in on.names and not _is_before(access, on):
                     yield doer, access
 
-    def _movers(self, clock: object, topic: ClockRef) -> tuple[Waker, ...]:
-        """Who moves a simulated clock: the subscription, and somebody who sends to it."""
-        by = [clock if isinstance(clock, str) else OUTSIDE]
+    def _movers(self, taker: object, topic: MessageRef) -> tuple[Waker, ...]:
+        """Who brings it: the subscription, and somebody who sends to it."""
+        by = [taker if isinstance(taker, str) else OUTSIDE]
         if not any(self._senders(TopicRef(topic))):
             by.append(OUTSIDE)
         return tuple(Waker(by=each) for each in dict.fromkeys(by))
 
-    def _of_clock(self, clock: ClockRef, named: Blocking) -> Blocking:
-        """A wait for simulated time; what its data is by then may end it as well."""
-        movers = self._movers(named.on, clock)
-        writers = () if clock.data is None else tuple(dict.fromkeys(self._writers(clock.data)))
-        if clock.data is None or not writers:
+    def _of_messages(self, on: MessageRef, named: Blocking) -> Blocking:
+        """A wait for what messages bring; what its data is by then may end it as well."""
+        movers = self._movers(named.on, on)
+        writers = () if on.data is None else tuple(dict.fromkeys(self._writers(on.data)))
+        if on.data is None or not writers:
             return replace(named, wakers=movers, needs=Needs.ALL)
-        why = data_is_written_elsewhere(self._world, clock.data.names)
+        why = data_is_written_elsewhere(self._world, on.data.names)
         return replace(named, wakers=(*writers, movers[0]), escapes=named.escapes or why)
 
     def _writers(self, on: DataRef) -> Iterator[Waker]:

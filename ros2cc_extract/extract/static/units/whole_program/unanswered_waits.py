@@ -170,7 +170,9 @@ def _unanswered(wait: OutsideWait, client: EntityState, what: str) -> Diagnostic
     name = f' of {key.value!r}' if isinstance(key, Const) else ''
     awaited = 'a timer' if wait.call == RATE else f'the answer{name}'
     is_answer = client.kind in SERVER_KINDS
-    awaited = awaited if is_answer or wait.call == RATE else 'simulated time'
+    if not is_answer and wait.call != RATE:
+        topic = client.topic
+        awaited = 'simulated time' if topic == '/clock' else f'what comes on {topic}'
     return Diagnostic(
         severity=Severity.ERROR,
         slug='nobody-spins',

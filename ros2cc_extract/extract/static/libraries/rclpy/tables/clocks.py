@@ -78,7 +78,7 @@ def note_sleep(machine: RosMachine, name: str, node: Value | None, place: Place)
     """Somebody waits for the simulated time of ``node``, if that has any."""
     clock = node.state.sim_clock if isinstance(node, Instance) else None
     if isinstance(clock, EntityState):
-        machine.note_clock(name, clock, place)
+        machine.note_messages(name, clock, place)
 
 
 def serve(world: RosWorld, clock: EntityState) -> None:
@@ -111,7 +111,7 @@ def _sleep(name: str) -> Handler:
 def _now(machine: RosMachine, receiver: Value, call: Call) -> Value:
     node = receiver.state.of if isinstance(receiver, Instance) else None
     clock = node.state.sim_clock if isinstance(node, Instance) else None
-    asked = machine.world.asked_clocks
+    asked = machine.world.asked_messages
     if isinstance(clock, EntityState) and clock not in asked:
         asked.append(clock)
     return machine.mystery(THE_CLOCK, call.place, f'{THE_CLOCK}.now')
