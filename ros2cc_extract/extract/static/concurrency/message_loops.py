@@ -129,7 +129,8 @@ def _called(machine: ConcurrentMachine, asked: ast.AST, frame: Frame, depth: int
             if not inner or not depth:
                 yield name
             for each in inner if depth else ():
-                for statement in each.node.body:
+                body = each.node.body
+                for statement in body if isinstance(body, list) else [body]:
                     yield from _called(machine, statement, frame, depth - 1)
         elif isinstance(part, (ast.Await, ast.NamedExpr, ast.Yield, ast.YieldFrom)):
             yield type(part).__name__
