@@ -43,7 +43,6 @@ from ros2cc_extract.extract.static.scan.guarded_runs import guarded
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_test, end_test
 from ros2cc_extract.extract.static.scan.texts_that_act import may_make_entities, may_wait
-from ros2cc_extract.extract.static.units.handler_locks import note_handler_locks
 from ros2cc_extract.extract.static.units.whole_program.double_spins import note_spun_twice
 from ros2cc_extract.extract.static.units.whole_program.endless_readers import (
     note_endless_readers,
@@ -88,7 +87,6 @@ def run_entry(project: Project, entry: Entry) -> RosInterpreter:
     take_back(machine.world)
     note_kept_locks(machine.world)
     note_unanswered(machine.world)
-    note_handler_locks(machine.world)
     note_spun_twice(machine.world)
     note_taken_by_threads(machine.world)
     note_taken(machine.world)

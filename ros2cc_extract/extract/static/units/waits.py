@@ -7,7 +7,9 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
 from ros2cc_extract.extract.static.concurrency.machine.counters import MOST
+from ros2cc_extract.extract.static.concurrency.machine.outside_names import OF_CHILDREN
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wait_table import NO_ROW, TAKES_PERMIT
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     DataRef,
     EntityRef,
@@ -17,12 +19,10 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     TopicRef,
     Waking,
 )
-from ros2cc_extract.extract.static.concurrency.waits.outside_names import OF_CHILDREN
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
     uncalled_wakers,
 )
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, TAKES_PERMIT
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, EntityState, RosWorld
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread

@@ -9,6 +9,11 @@ from ros2cc_extract.extract.static.concurrency.accesses import lost_notification
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_over
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.wait_table import (
+    NO_ROW,
+    SPIN_UNTIL,
+    WaitRow,
+)
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     DataRef,
     EntityRef,
@@ -27,11 +32,6 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import waki
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
     timeout_of,
     unknown_wait,
-)
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
-    NO_ROW,
-    SPIN_UNTIL,
-    WaitRow,
 )
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_endless, minds_nothing
 from ros2cc_extract.extract.static.python.branching.parameter_branches import only_if

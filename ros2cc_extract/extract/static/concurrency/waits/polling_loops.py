@@ -11,11 +11,10 @@ import ast
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.concurrency import message_loops
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
-from ros2cc_extract.extract.static.concurrency.waits import retry_loops
+from ros2cc_extract.extract.static.concurrency.waits import message_loops, retry_loops
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
 from ros2cc_extract.extract.static.concurrency.waits.counted_tests import rise_of
 from ros2cc_extract.extract.static.concurrency.waits.loop_tests import (

@@ -13,9 +13,9 @@ import ast
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.concurrency import message_loops
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef
+from ros2cc_extract.extract.static.concurrency.waits import message_loops
 from ros2cc_extract.extract.static.concurrency.waits.loop_tests import LEAVES, name_of, own_parts
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import passes_time
 from ros2cc_extract.extract.static.program.text_queries import walk
