@@ -165,6 +165,8 @@ class Waits(ConcurrentMachine):
         if effects is None:
             self._note_in_set_up(block, None, place, spun)
             return
+        if is_main(world.activity):
+            self._note_in_set_up(block, None, place, spun)
         effects.behind = way_of(block)
         if block not in effects.blocking[-RECENT:]:
             effects.blocking.append(block)

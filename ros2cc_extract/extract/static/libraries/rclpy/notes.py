@@ -8,6 +8,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import lost_notification
 from ros2cc_extract.extract.static.concurrency.activities import run_in_thread
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, MessageRef
 from ros2cc_extract.extract.static.concurrency.waits import cleared_events, outside_waits
+from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import is_main
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import called_name
 from ros2cc_extract.extract.static.libraries.rclpy.machine import end_operations, lost_tasks
 from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import assumption
@@ -231,8 +232,9 @@ class RosNotes(StandardBlocks, RosMachine):
         """Somebody waits for what ``brings`` takes, or for data beside it."""
         if isinstance(brings, EntityState) and brings.builtin:
             serve(self.world, brings)
-        if self.world.effects is None:
+        if self.world.effects is None or is_main(self.world.activity):
             outside_waits.note_messages(self.world, name, brings, place)
+        if self.world.effects is None:
             return
         reference = MessageRef(brings.topic)
         reference.number, reference.data = id(brings), on
