@@ -570,7 +570,9 @@ def test_a_loop_that_looks_for_a_time_at_what_only_a_blocked_callback_writes(num
     callbacks = (service('take', blocking=(loop,)), subscription('cut'))
     one = only(unit(threads(number), *callbacks), 'CC102' if number == 1 else 'CC101')
     assert (one.severity, one.place) == (Severity.WARNING, at(40))
-    assert one.message.endswith(': unless the data is there at once, it goes on for all of its time')
+    assert one.message.endswith(
+        ': unless the data is there at once, it goes on for all of its time'
+    )
 
 
 def test_loops_that_end_by_time_too_may_take_all_threads() -> None:

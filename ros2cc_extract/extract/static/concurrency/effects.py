@@ -19,7 +19,7 @@ from ros2cc_extract.extract.static.concurrency.accesses.held_locks import (
     taking_of,
 )
 from ros2cc_extract.extract.static.concurrency.waits import values_during_waits
-from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, touch
+from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, is_main, touch
 from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
@@ -295,6 +295,16 @@ class Effects(Waits):
                 lost_notifications.begin_hold(self.world, name)
                 if self.world.effects is not None:
                     note_once(self.world.effects.locks, act)
+                self._note_in_main(name, place)
+
+    def _note_in_main(self, name: str, place: Place) -> None:
+        """A handler of a signal may interrupt the main program while it holds the lock."""
+        world = self.world
+        is_of_main = world.effects is None or is_main(world.activity)
+        if is_of_main and not world.in_thread and world.signal_handlers:
+            take = (name, place, len(world.signal_handlers))
+            if take not in world.main_takes:
+                world.main_takes.append(take)
 
     def lock_name(self, lock: Instance, kind: str) -> str:
         """The name that a lock is stored under; a second one of that name gets a number."""

@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.python.values.values import Class, Instance, 
 from ros2cc_extract.extract.static.python.values.values import Value as AnyValue
 from ros2cc_extract.extract.static.units.callbacks import UnitBuilder
 from ros2cc_extract.extract.static.units.executor import Unit, is_handed_over
+from ros2cc_extract.extract.static.units.handler_locks import note_handler_locks
 from ros2cc_extract.extract.static.units.set_up_waits import share_out
 from ros2cc_extract.extract.static.units.whole_program.double_spins import are_concurrent
 from ros2cc_extract.spec.joined_executors import KINDS, Joined, joined
@@ -30,6 +31,7 @@ def specs_of(world: RosWorld, entry: str | None) -> list[Spec]:
     found = []
     units = units_of(world)
     share_out(world, units)
+    note_handler_locks(world)
     for unit in units:
         unit.is_only = len(units) == 1
         is_lost = unit.spin is None and not any(node.state.nested for node in unit.nodes)

@@ -7,23 +7,23 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
 from ros2cc_extract.extract.static.concurrency.machine.counters import MOST
+from ros2cc_extract.extract.static.concurrency.machine.outside_names import OF_CHILDREN
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wait_table import NO_ROW, TAKES_PERMIT
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
-    ClockRef,
     DataRef,
     EntityRef,
+    MessageRef,
     ResourceRef,
     SettableRef,
     TopicRef,
     Waking,
 )
-from ros2cc_extract.extract.static.concurrency.waits.outside_names import OF_CHILDREN
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
     is_handed_over,
     uncalled_wakers,
 )
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW, TAKES_PERMIT
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import End, EntityState, RosWorld
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.libraries.standard.pool_tasks import why_no_thread
@@ -72,7 +72,6 @@ from ros2cc_extract.spec.effects import (
     POLLING_LOOP,
     TIME,
     Blocking,
-    Needs,
     Waker,
 )
 from ros2cc_extract.spec.model import ActivityKind
@@ -169,7 +168,7 @@ class UnitWaits(DataWriters):
             return replace(raw, on=self._the_writer(raw.on), resource=str(raw.on))
         if isinstance(raw.on, TopicRef):
             return replace(raw, on=str(raw.on), resource=str(raw.on))
-        if isinstance(raw.on, ClockRef):
+        if isinstance(raw.on, MessageRef):
             return replace(raw, on=self._names.get(raw.on.number), resource=str(raw.on))
         on = _waited_name(raw.on, self._settled)
         if isinstance(resource, ResourceRef):
@@ -211,8 +210,8 @@ class UnitWaits(DataWriters):
         spin = of_spin_aside(self._world, raw, named, doer)
         if spin is not None:
             return spin
-        if isinstance(raw.on, ClockRef):
-            return replace(named, wakers=self._movers(named.on, raw.on), needs=Needs.ALL)
+        if isinstance(raw.on, MessageRef):
+            return self._of_messages(raw.on, named)
         if isinstance(raw.on, TopicRef):
             senders = tuple(dict.fromkeys(self._senders(raw.on))) or (Waker(by=OUTSIDE),)
             return replace(named, wakers=senders)

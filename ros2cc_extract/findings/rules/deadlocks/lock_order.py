@@ -148,12 +148,17 @@ RULE = Rule(
     title='Locks taken in opposite order',
     what='Two callbacks, or a callback and a thread, that may run at the same time take two '
     'locks in opposite order; or one takes a `threading.Lock` that it already holds. Each waits '
-    'for the other forever and keeps its thread and group.',
+    'for the other forever and keeps its thread and group. Or a handler of a signal takes a '
+    '`threading.Lock` that the main thread, which it interrupts, may hold: in `main`, or in a '
+    'callback that the main thread runs itself.',
     why='A `threading.Lock` has no owner: its holder waits for it like everybody else. The model '
     'decides whether two callbacks may overlap; if the unit was not verified, their groups and '
     'the number of threads do. Locks taken with a time-out, read locks, and cycles of three '
-    'locks are not checked. Sources: Python, `threading`; rclpy 7.1.6 and 9.1.2, `executors.py` '
-    '(`MultiThreadedExecutor`). Measured on 7.1.6: both callbacks stop within a second.',
+    'locks are not checked, nor handlers that a second signal interrupts. Sources: Python, '
+    '`threading`, `signal` (handlers run in the main thread, which goes on behind them); rclpy '
+    '7.1.6 and 9.1.2, `executors.py` '
+    '(`MultiThreadedExecutor` runs callbacks in other threads). Measured on 7.1.6: both callbacks '
+    'stop within a second, and so does a callback that a handler interrupts.',
     bad="""\
 class Arm(Node):
     def on_move(self, msg):            # on_move and on_stop in different groups

@@ -20,6 +20,8 @@ NOBODY_SPINS = Rule(
     'that must take the answer or, if both are in one program, the node that must send it. The '
     'wait never ends. The same holds where it waits for a thread or a job, or for what one of '
     'these does, that is itself in such a wait; for `Rate.sleep` on a node that was never spun; '
+    'for a service or an action server that the program itself makes only behind the wait; in a '
+    'loop for simulated time or a transform, which only a subscription brings; '
     'and for '
     '`Thread.join` on a thread that is in a wait which only callbacks end: after the spin, or '
     'after the shutdown of the executor that another thread spins; if that thread runs a loop, '
@@ -32,7 +34,11 @@ NOBODY_SPINS = Rule(
     'the node ends `Rate.sleep`. Reported only if every spin of the program is known. '
     'Sources: rclpy 7.1.6 and 9.1.2, `client.py` (`Client.call`), `timer.py` (`Rate.sleep`), '
     '`__init__.py` (`spin_until_future_complete` spins the given node alone). Measured on 7.1.6: '
-    'neither an answer nor the end of a rate of 2 Hz within 5 s. The interpreter joins threads '
+    'neither an answer nor the end of a rate of 2 Hz within 5 s; a service that the same node has '
+    'made before is there without a spin, one that it makes later never; with `use_sim_time` the '
+    'clock stands still while `/clock` is published. `TransformListener` has a thread of its own '
+    'only with `spin_thread=True` (geometry2 0.39.1, `transform_listener.py`). '
+    'The interpreter joins threads '
     'that are not daemons, and those of pools (CPython 3.12, `threading.py`, `_shutdown`; '
     '`concurrent/futures/thread.py`, `_python_exit`); measured: such a program outlives Ctrl-C.',
     bad="""\

@@ -219,3 +219,47 @@ def test_where_the_order_is_not_known_the_wait_is_undecided(
 
     assert [each for each in found.diagnostics if each.slug == 'nobody-spins'] == []
     assert len(set(_reasons(found))) == 1
+
+
+POLL_BESIDE = """\
+import threading
+import time
+
+import rclpy
+from rclpy.node import Node
+
+
+class Other(Node):
+    def __init__(self):
+        super().__init__('other')
+
+
+class Watcher(Node):
+    def __init__(self):
+        super().__init__('watcher')
+        self.ready = False
+        self.create_timer(0.1, self.tick)
+        while not self.ready:
+            time.sleep(0.1)
+
+    def tick(self):
+        self.ready = True
+
+
+rclpy.init()
+threading.Thread(target=rclpy.spin, args=(Other(),), daemon=True).start()
+watcher = Watcher()
+executor = rclpy.executors.SingleThreadedExecutor()
+executor.add_node(watcher)
+executor.spin()
+"""
+
+
+def test_a_loop_of_main_beside_a_thread_is_told_where_main_spins_later(tmp_path: Path) -> None:
+    path = tmp_path / 'watcher.py'
+    path.write_text(POLL_BESIDE)
+
+    found = scan([path])
+
+    waits = [wait for unit in found.units for wait in unit.set_up if wait.call == 'polling loop']
+    assert len(waits) == 1 and waits[0].escapes is not None

@@ -5,9 +5,10 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
-from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ClockRef, DataRef
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, MessageRef
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.source_locations import Place, Unknown
 
@@ -42,12 +43,22 @@ class ConcurrentMachine(Machine, ABC):
     def note_loop_on_data(
         self,
         name: str,
-        on: DataRef | ClockRef | Unknown,
+        on: DataRef | MessageRef | Unknown,
         seconds: Unknown | None,
         place: Place,
         spun: tuple[Instance, ...] = (),
     ) -> None:
         """A loop goes on until other code has written what its test reads."""
+
+    @abstractmethod
+    def note_messages(
+        self, name: str, brings: Doer, place: Place, on: DataRef | None = None
+    ) -> None:
+        """
+        Somebody waits for what the messages of a subscription bring.
+
+        :param on: the data by which the wait ends as well.
+        """
 
     @abstractmethod
     def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:

@@ -54,6 +54,7 @@ class ActivityState(Doer):
     :param alone: the attributes it is kept in, of which each start has found that the thread there
         has ended; with what starts it, and the holds of locks from that test on.
     :param left: attributes that it has itself emptied by now.
+    :param interrupts: a handler of a signal, which runs between two lines of the main thread.
     """
 
     kind: ActivityKind
@@ -84,6 +85,7 @@ class ActivityState(Doer):
     pool: Instance | None = None
     alone: dict[KeptIn, tuple[tuple[Doer | None, frozenset[tuple[str, int]]], ...]] | None = None
     left: set[KeptIn] = field(default_factory=set)
+    interrupts: bool = False
 
 
 @dataclass(eq=False)
@@ -212,6 +214,8 @@ class ConcurrentWorld(World):
     :param locks: the locks that were taken, by the name they are stored under.
     :param main_spins: how many spins the set-up has called in its own thread, behind which no
         callback runs, and how many it had ``before_loop``, the outermost of those loops.
+    :param main_takes: locks that the main program takes itself, with the number of handlers of
+        signals by then.
     :param loops_at: of a lock, how many of ``open_loops`` there were when it was taken.
     :param takes: how often each of them was taken; ``holds`` the number of the present hold,
         and ``begun`` where something was made or started in one.
@@ -228,6 +232,8 @@ class ConcurrentWorld(World):
     :param asked_until: calls in the tests of loops that only their answer ends.
     :param retried: calls that a loop tries again and again until they raise no error.
     :param asked_outside: calls by which a library asks others outside whether something is over.
+    :param asked_messages: the subscriptions that bring what was asked for: the time of simulated
+        clocks, transforms.
     :param over: what it has ended.
     """
 
@@ -271,6 +277,7 @@ class ConcurrentWorld(World):
     asked_until: set[Place] = field(default_factory=set)
     retried: set[Place] = field(default_factory=set)
     asked_outside: set[Place] = field(default_factory=set)
+    asked_messages: list[Doer] = field(default_factory=list)
     over: list[Over] = field(default_factory=list)
     timed_joins: list[TimedJoin] = field(default_factory=list)
     after_spin: bool = False
@@ -283,6 +290,7 @@ class ConcurrentWorld(World):
     threads: int = 0
     exit_hooks: list[tuple[Value, Call]] = field(default_factory=list)
     signal_handlers: list[ActivityState] = field(default_factory=list)
+    main_takes: list[tuple[str, Place, int]] = field(default_factory=list)
     interruptible: set[int] = field(default_factory=set)
     kept_in: dict[Value, tuple[Heaped, str]] = field(default_factory=dict)
     met_meanwhile: dict[tuple[Heaped, str], dict[object, Instance]] = field(default_factory=dict)

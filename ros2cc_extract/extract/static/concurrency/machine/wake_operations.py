@@ -146,8 +146,14 @@ class DataRef(EntityRef):
     before: frozenset[tuple[str, Place | None]] = frozenset()
 
 
-class ClockRef(EntityRef):
-    """Stands for simulated time, which the subscription of ``number`` moves."""
+class MessageRef(EntityRef):
+    """
+    Stands for what messages bring to the subscription of ``number``: simulated time, transforms.
+
+    :param data: what ends the wait as well.
+    """
+
+    data: DataRef | None = None
 
 
 class TopicRef(EntityRef):

@@ -9,10 +9,15 @@ from ros2cc_extract.extract.static.concurrency.accesses import lost_notification
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_over
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.wait_table import (
+    NO_ROW,
+    SPIN_UNTIL,
+    WaitRow,
+)
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
-    ClockRef,
     DataRef,
     EntityRef,
+    MessageRef,
     ResourceRef,
     SettableRef,
     TopicRef,
@@ -28,15 +33,7 @@ from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
     timeout_of,
     unknown_wait,
 )
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import (
-    NO_ROW,
-    SPIN_UNTIL,
-    WaitRow,
-)
-from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
-    is_endless,
-    minds_nothing,
-)
+from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_endless, minds_nothing
 from ros2cc_extract.extract.static.python.branching.parameter_branches import only_if
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
@@ -92,7 +89,7 @@ class Waits(ConcurrentMachine):
         is_ready = row.unless_asked and world.is_ready(on, row.ended_by)
         if is_ready and row.rival is None:
             return
-        if effects is None or _is_main(world.activity):
+        if effects is None or is_main(world.activity):
             self._note_outside(name, on, seconds, place)
             outside_waits.note_interruptible(world, name, on)
         elif world.is_set_up_on_loop:
@@ -102,7 +99,7 @@ class Waits(ConcurrentMachine):
             values_during_waits.note_met(world, thing)
             self._note_in_set_up(block, thing, place)
             return
-        if _is_main(world.activity):
+        if is_main(world.activity):
             self._note_in_set_up(block, thing, place)
         touch(world.activity, thing)
         if thing is not None:
@@ -147,7 +144,7 @@ class Waits(ConcurrentMachine):
     def note_loop_on_data(
         self,
         name: str,
-        on: DataRef | ClockRef | Unknown,
+        on: DataRef | MessageRef | Unknown,
         seconds: Unknown | None,
         place: Place,
         spun: tuple[Instance, ...] = (),
@@ -168,6 +165,8 @@ class Waits(ConcurrentMachine):
         if effects is None:
             self._note_in_set_up(block, None, place, spun)
             return
+        if is_main(world.activity):
+            self._note_in_set_up(block, None, place, spun)
         effects.behind = way_of(block)
         if block not in effects.blocking[-RECENT:]:
             effects.blocking.append(block)
@@ -230,7 +229,7 @@ class Waits(ConcurrentMachine):
     ) -> None:
         """Code that is no callback waits for ``on`` and spins some nodes meanwhile."""
         self._note_outside(name, on, seconds, place, spun)
-        if on is not None and (self.world.effects is None or _is_main(self.world.activity)):
+        if on is not None and (self.world.effects is None or is_main(self.world.activity)):
             call = name if name in self.model.waits else SPIN_UNTIL
             block, thing = self._block(call, on, seconds, place)
             values_during_waits.note_met(self.world, thing)
@@ -352,7 +351,7 @@ def _topic(name: Value | None, place: Place) -> TopicRef | Unknown:
     return name.unknown if isinstance(name, Mystery) else unknown
 
 
-def _is_main(activity: ActivityState | None) -> bool:
+def is_main(activity: ActivityState | None) -> bool:
     return activity is not None and activity.kind is ActivityKind.MAIN
 
 

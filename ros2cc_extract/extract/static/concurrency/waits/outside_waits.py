@@ -19,7 +19,7 @@ from ros2cc_extract.extract.static.python.machine.waitable_objects import is_of_
 from ros2cc_extract.extract.static.python.values.exclusive_paths import is_behind
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import AWAIT, Blocking
+from ros2cc_extract.spec.effects import AWAIT, POLLING_LOOP, Blocking
 from ros2cc_extract.spec.model import When
 
 JOIN = 'Thread.join'
@@ -70,6 +70,12 @@ def note(
         return
     if name in ANSWERS or name.endswith('spin_until_future_complete'):
         _remember(world, name, client, place, spun)
+
+
+def note_messages(world: ConcurrentWorld, name: str, brings: Doer, place: Place) -> None:
+    """The set-up waits for what the messages of a subscription bring."""
+    if world.when is When.START and not world.after_spin and world.is_program:
+        _remember(world, name.replace(POLLING_LOOP, 'a polling loop'), brings, place, ())
 
 
 def note_in_loop(world: ConcurrentWorld, awaited: Value, place: Place) -> None:

@@ -6,8 +6,9 @@ import ast
 
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifications
 from ros2cc_extract.extract.static.concurrency.activities import run_in_thread
-from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ClockRef
-from ros2cc_extract.extract.static.concurrency.waits import cleared_events
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, MessageRef
+from ros2cc_extract.extract.static.concurrency.waits import cleared_events, outside_waits
+from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import is_main
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import called_name
 from ros2cc_extract.extract.static.libraries.rclpy.machine import end_operations, lost_tasks
 from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import assumption
@@ -26,6 +27,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.clients import (
     UNKNOWN_CLIENT,
     result_of,
 )
+from ros2cc_extract.extract.static.libraries.rclpy.tables.clocks import serve
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import node_executor
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     CREATE_CALLS,
@@ -43,6 +45,7 @@ from ros2cc_extract.extract.static.libraries.standard.context_exits import Stand
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import AWAITED
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_LOOP, OF_POOL
 from ros2cc_extract.extract.static.python.machine.world import note_once
 from ros2cc_extract.extract.static.python.objects.library_calls import is_standard
@@ -223,12 +226,19 @@ class RosNotes(StandardBlocks, RosMachine):
             self.note_blocking(clock, None, slept(call), call.place)
         return clock is not None
 
-    def note_clock(self, name: str, clock: EntityState, place: Place) -> None:
-        """Note a wait for time that ``clock`` moves."""
-        if self.world.effects is not None:
-            reference = ClockRef('/clock')
-            reference.number = id(clock)
-            self.note_loop_on_data(name, reference, None, place)
+    def note_messages(
+        self, name: str, brings: Doer, place: Place, on: DataRef | None = None
+    ) -> None:
+        """Note a wait for what ``brings`` takes, or for data beside it."""
+        if isinstance(brings, EntityState) and brings.builtin:
+            serve(self.world, brings)
+        if self.world.effects is None or is_main(self.world.activity):
+            outside_waits.note_messages(self.world, name, brings, place)
+        if self.world.effects is None:
+            return
+        reference = MessageRef(brings.topic)
+        reference.number, reference.data = id(brings), on
+        self.note_loop_on_data(name, reference, None, place)
 
     def note_publish(self, publisher: Value, place: Place) -> None:
         """A message is published."""

@@ -18,7 +18,7 @@ from ros2cc_extract.extract.static.libraries.standard.futures import LOOP, run_i
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items
 from ros2cc_extract.extract.static.libraries.standard.queues import QUEUE_METHODS, may_be_full
 from ros2cc_extract.extract.static.libraries.standard.queues import init as init_queue
-from ros2cc_extract.extract.static.libraries.standard.signal_handlers import on_signal
+from ros2cc_extract.extract.static.libraries.standard.signal_handlers import on_signal_of_loop
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import (
     AWAITED,
@@ -303,7 +303,7 @@ _LOOP_METHODS: dict[str, Handler] = {
     'call_soon': _call_soon,
     'call_soon_threadsafe': _call_soon_threadsafe,
     'run_forever': _run_forever,
-    'add_signal_handler': on_signal,
+    'add_signal_handler': on_signal_of_loop,
     'run_in_executor': run_in_executor,
 }
 

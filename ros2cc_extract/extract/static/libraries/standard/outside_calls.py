@@ -14,7 +14,7 @@ import ast
 from collections.abc import Mapping
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.waits.outside_names import (
+from ros2cc_extract.extract.static.concurrency.machine.outside_names import (
     CLASSES,
     FRAMES,
     FUNCTIONS,

@@ -36,14 +36,26 @@ from ros2cc_extract.spec.model import ActivityKind
 
 
 def on_signal(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """``signal.signal(number, handler)``, and ``loop.add_signal_handler(number, callback)``."""
+    """``signal.signal(number, handler)``."""
+    _add_handlers(machine, call, interrupts=True)
+    return machine.mystery('the handler before', call.place, 'signal.signal(…)')
+
+
+def on_signal_of_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """``loop.add_signal_handler(number, callback)``: the loop runs it, between two callbacks."""
+    _add_handlers(machine, call, interrupts=False)
+    return NONE
+
+
+def _add_handlers(machine: ConcurrentMachine, call: Call, *, interrupts: bool) -> None:
     for option in options_of(call.argument(1, 'handler', 'callback') or NONE):
-        machine.world.signal_handlers.append(_beside(option, call.place))
+        handler = _beside(option, call.place)
+        handler.interrupts = interrupts
+        machine.world.signal_handlers.append(handler)
         function = option.function if isinstance(option, Bound) else option
         if isinstance(function, Function):
             for name, place in _stored_by(function, option):
                 machine.world.other_writes.setdefault(name, (None, place))
-    return machine.mystery('the handler before', call.place, 'signal.signal(…)')
 
 
 def note_followed(world: ConcurrentWorld, handler: ActivityState) -> None:

@@ -108,6 +108,11 @@ class Doer:
         return None
 
     @property
+    def topic(self) -> str:
+        """The topic whose messages it takes."""
+        return ''
+
+    @property
     def kind_name(self) -> str:
         """What a specification calls its kind."""
         return ''

@@ -9,8 +9,8 @@ from ros2cc_extract.extract.static.concurrency.activities import is_activity
 from ros2cc_extract.extract.static.concurrency.machine.counters import MOST, Rise
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
-    ClockRef,
     DataRef,
+    MessageRef,
     TopicRef,
 )
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
@@ -23,7 +23,7 @@ from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_off_
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import OUTSIDE, WORKING_LOOP, Access, Act, Blocking, Waker
+from ros2cc_extract.spec.effects import OUTSIDE, WORKING_LOOP, Access, Act, Blocking, Needs, Waker
 
 Doer = EntityState | ActivityState
 
@@ -69,12 +69,21 @@ class DataWriters:
                 if access.name in on.names and not _is_before(access, on):
                     yield doer, access
 
-    def _movers(self, clock: object, topic: ClockRef) -> tuple[Waker, ...]:
-        """What moves a simulated clock: the subscription, and a publisher that sends to it."""
-        by = [clock if isinstance(clock, str) else OUTSIDE]
+    def _movers(self, taker: object, topic: MessageRef) -> tuple[Waker, ...]:
+        """What brings it: the subscription, and a publisher that sends to it."""
+        by = [taker if isinstance(taker, str) else OUTSIDE]
         if not any(self._senders(TopicRef(topic))):
             by.append(OUTSIDE)
         return tuple(Waker(by=each) for each in dict.fromkeys(by))
+
+    def _of_messages(self, on: MessageRef, named: Blocking) -> Blocking:
+        """A wait for what messages bring; what its data is by then may end it as well."""
+        movers = self._movers(named.on, on)
+        writers = () if on.data is None else tuple(dict.fromkeys(self._writers(on.data)))
+        if on.data is None or not writers:
+            return replace(named, wakers=movers, needs=Needs.ALL)
+        why = data_is_written_elsewhere(self._world, on.data.names)
+        return replace(named, wakers=(*writers, movers[0]), escapes=named.escapes or why)
 
     def _writers(self, on: DataRef) -> Iterator[Waker]:
         for doer, access in self._writes(on):

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wait_table import NO_ROW
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word

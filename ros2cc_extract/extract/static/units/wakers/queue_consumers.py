@@ -11,12 +11,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wait_table import NO_ROW
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     DataRef,
     ResourceRef,
     Waking,
 )
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import NO_ROW
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word

@@ -134,6 +134,8 @@ def _needed(
         yield client.node, 'has it'
         return
     yield client.node, 'must take it'
+    if client.kind not in SERVER_KINDS:
+        return
     kind, key = SERVER_KINDS[client.kind], client.key
     servers = [e for e in world.entities if e.kind is kind and _is_same(e.key, key)]
     if len(servers) == 1:
@@ -167,6 +169,10 @@ def _unanswered(wait: OutsideWait, client: EntityState, what: str) -> Diagnostic
     key = client.key
     name = f' of {key.value!r}' if isinstance(key, Const) else ''
     awaited = 'a timer' if wait.call == RATE else f'the answer{name}'
+    is_answer = client.kind in SERVER_KINDS
+    if not is_answer and wait.call != RATE:
+        topic = client.topic
+        awaited = 'simulated time' if topic == '/clock' else f'what comes on {topic}'
     return Diagnostic(
         severity=Severity.ERROR,
         slug='nobody-spins',
@@ -175,6 +181,8 @@ def _unanswered(wait: OutsideWait, client: EntityState, what: str) -> Diagnostic
         f'{what}: it waits forever',
         help='use time.sleep, or spin the node in a thread before, and only there'
         if wait.call == RATE
+        else 'spin the node in a thread before, and only there'
+        if not is_answer
         else 'spin the nodes concerned in a thread before, and only there, or wait by '
         'spin_until_future_complete on an executor that has them',
     )

@@ -8,13 +8,14 @@ reads ends it.
 from __future__ import annotations
 
 import ast
+from collections.abc import Sequence
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
-from ros2cc_extract.extract.static.concurrency.waits.loops import retry_loops
+from ros2cc_extract.extract.static.concurrency.waits.loops import message_loops, retry_loops
 from ros2cc_extract.extract.static.concurrency.waits.loops.counted_tests import rise_of
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import (
     End,
@@ -296,6 +297,8 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
         return
     asked = machine.world.reading.asked.get(frame.place(loop))
     inside = effects.blocking[before.waits :]
+    if _only_asks(machine, inside) and message_loops.note(machine, loop, frame):
+        return
     if _waits_inside(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):
         return
     implied = _implied_by_exits(machine, loop, frame)
@@ -430,6 +433,11 @@ def _waits_inside(
     if any(b.call in ('busy wait', ANSWER_LOOP) or b.suspends or 'spin' in b.call for b in others):
         return True
     return bool(others) and machine.world.activity is None
+
+
+def _only_asks(machine: ConcurrentMachine, inside: Sequence[Blocking]) -> bool:
+    """Whether its rounds wait for nothing but time, and for what it asks for itself."""
+    return all(_is_pause(machine, b.call) or message_loops.is_asking(b.call) for b in inside)
 
 
 def _is_pause(machine: ConcurrentMachine, call: str) -> bool:

@@ -15,6 +15,7 @@ from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef
+from ros2cc_extract.extract.static.concurrency.waits.loops import message_loops
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     LEAVES,
     name_of,
@@ -57,6 +58,8 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, first: int) 
     effects = machine.world.effects
     if attempt is None or effects is None or not machine.world.in_callback:
         return False
+    if message_loops.note_attempt(machine, loop, list(_tried(attempt)), frame):
+        return True
     if _has_timed_waits(effects, first, attempt, frame):
         return True
     place = frame.place(loop)
@@ -72,6 +75,14 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, first: int) 
     why = Unknown(f'when {text} raises no error', place)
     machine.note_loop_on_data(POLLING_LOOP, why, None, place)
     return True
+
+
+def note_in_set_up(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> bool:
+    """Tell of a loop of the set-up whose attempt succeeds when messages have come."""
+    attempt = _attempt(loop)
+    if attempt is None:
+        return False
+    return message_loops.note_attempt(machine, loop, list(_tried(attempt)), frame)
 
 
 def _attempt(loop: ast.While) -> ast.Try | None:

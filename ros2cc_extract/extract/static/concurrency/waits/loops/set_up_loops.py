@@ -6,6 +6,7 @@ import ast
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.waits.loops import message_loops, retry_loops
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import (
     End,
     end_of,
@@ -41,6 +42,9 @@ from ros2cc_extract.source_locations import Unknown
 
 def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> None:
     """After one round of ``loop``."""
+    is_noted = message_loops.note(machine, loop, frame)
+    if is_noted or retry_loops.note_in_set_up(machine, loop, frame):
+        return
     _note_set_up(machine, loop, frame)
     _note_spinning(machine, loop, frame)
 

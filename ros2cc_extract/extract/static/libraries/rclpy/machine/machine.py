@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.source_locations import Place
 
@@ -40,10 +40,6 @@ class RosMachine(ConcurrentMachine, ABC):
     @abstractmethod
     def note_change(self, what: str, node: Instance, place: Place) -> None:
         """A callback changes which executor serves ``node``."""
-
-    @abstractmethod
-    def note_clock(self, name: str, clock: EntityState, place: Place) -> None:
-        """Somebody waits for time that ``clock`` moves."""
 
     @abstractmethod
     def note_publish(self, publisher: Value, place: Place) -> None:

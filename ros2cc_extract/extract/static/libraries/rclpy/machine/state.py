@@ -14,7 +14,13 @@ from ros2cc_extract.extract.static.concurrency.machine.state import (
 from ros2cc_extract.extract.static.program.given_parameters import NONE_GIVEN, GivenParameters
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
-from ros2cc_extract.extract.static.python.values.values import Instance, Path, Value, options_of
+from ros2cc_extract.extract.static.python.values.values import (
+    Const,
+    Instance,
+    Path,
+    Value,
+    options_of,
+)
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.client_server_pairs import SERVER_KINDS
@@ -189,6 +195,11 @@ class EntityState(Doer, LibraryState):
     def owner(self) -> Instance | None:
         """Its node."""
         return self.node
+
+    @property
+    def topic(self) -> str:
+        """The name that it was made with."""
+        return str(self.key.value) if isinstance(self.key, Const) else ''
 
     @property
     def kind_name(self) -> str:

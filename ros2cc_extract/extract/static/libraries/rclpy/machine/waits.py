@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.concurrency.waits import wait_table
-from ros2cc_extract.extract.static.concurrency.waits.wait_table import OF_OUTSIDE, SLEEP, WaitRow
+from ros2cc_extract.extract.static.concurrency.machine import wait_table
+from ros2cc_extract.extract.static.concurrency.machine.wait_table import OF_OUTSIDE, SLEEP, WaitRow
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 
 _ANSWER = WaitRow(frozenset({Word.END}))

@@ -36,6 +36,7 @@ from ros2cc_extract.spec.model import EntityKind
 
 _CLOCK = 'rclpy.clock.ROSClock'
 _CALLBACK = 'rclpy.time_source.TimeSource.clock_callback'
+_PARAMETER = 'use_sim_time'
 TOPIC = '/clock'
 
 
@@ -46,9 +47,10 @@ def start_sim_time(
     state = node.state
     if not isinstance(state, NodeState) or state.sim_clock is not None:
         return None
-    if not any(_is_sim_time(value) for value in parameters):
-        return None
     world = machine.world
+    is_given = world.parameters.values.get(_PARAMETER) is True
+    if not is_given and not any(_is_sim_time(value) for value in parameters):
+        return None
     group = group_of(machine, node, None, place)
     entity = EntityState(EntityKind.SUBSCRIPTION, node, group, place, path=world.path)
     entity.count, entity.when, entity.builtin = world.count, world.when, True
@@ -67,7 +69,7 @@ def _is_sim_time(value: Value) -> bool:
     state = value.state if isinstance(value, Instance) else None
     return (
         isinstance(state, PlainState)
-        and state.of == Const('use_sim_time')
+        and state.of == Const(_PARAMETER)
         and state.key == Const(True)
     )
 
@@ -76,11 +78,10 @@ def note_sleep(machine: RosMachine, name: str, node: Value | None, place: Place)
     """Note a wait for the simulated time of ``node``, if it has any."""
     clock = node.state.sim_clock if isinstance(node, Instance) else None
     if isinstance(clock, EntityState):
-        _serve(machine.world, clock)
-        machine.note_clock(name, clock, place)
+        machine.note_messages(name, clock, place)
 
 
-def _serve(world: RosWorld, clock: EntityState) -> None:
+def serve(world: RosWorld, clock: EntityState) -> None:
     """What rclpy has made matters from here on: code waits for it."""
     known = world.by_node.setdefault(id(clock.node), [])
     if clock not in known and clock not in world.builtins:
@@ -108,6 +109,11 @@ def _sleep(name: str) -> Handler:
 
 
 def _now(machine: RosMachine, receiver: Value, call: Call) -> Value:
+    node = receiver.state.of if isinstance(receiver, Instance) else None
+    clock = node.state.sim_clock if isinstance(node, Instance) else None
+    asked = machine.world.asked_messages
+    if isinstance(clock, EntityState) and clock not in asked:
+        asked.append(clock)
     return machine.mystery(THE_CLOCK, call.place, f'{THE_CLOCK}.now')
 
 
@@ -126,7 +132,7 @@ def _create_jump_callback(machine: RosMachine, receiver: Value, call: Call) -> V
                 machine.world.builtins.remove(clock)
         elif given not in (clock.callback, *clock.extra_callbacks):
             clock.extra_callbacks += (given,)
-        _serve(machine.world, clock)
+        serve(machine.world, clock)
     return machine.mystery('a jump handle', call.place)
 
 

@@ -14,6 +14,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     ExecutorState,
     GroupState,
+    RosWorld,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import (
     SINGLE,
@@ -208,6 +209,7 @@ def _look_up(name: str, position: int) -> Handler:
         seconds = state.key if isinstance(state, PlainState) else timeout
         asked = (_question(receiver, call), path_facts.Word.SET)
         is_there = name != 'can_transform' and asked in machine.world.ready
+        _note_asked(machine.world, receiver)
         if seconds is not None and seconds != Const(0.0) and not is_there:
             machine.note_blocking(f'Buffer.{name}', receiver, seconds, call.place)
         if name == 'can_transform':
@@ -215,6 +217,15 @@ def _look_up(name: str, position: int) -> Handler:
         return machine.mystery('a transform at run time', call.place)
 
     return look_up
+
+
+def _note_asked(world: RosWorld, buffer: Value) -> None:
+    """What the buffer knows comes by the subscriptions of its listener."""
+    state = buffer.state if isinstance(buffer, Instance) else None
+    listener = state.of if isinstance(state, PlainState) else None
+    brings = listener.state if isinstance(listener, Instance) else None
+    if isinstance(brings, EntityState) and brings not in world.asked_messages:
+        world.asked_messages.append(brings)
 
 
 def _question(buffer: Value, call: Call) -> Value:

@@ -192,4 +192,5 @@ TABLE = Library(
             properties=dict.fromkeys(_VALUE_FIELDS, _parameter_value)
         ),
     },
+    aliases={'rclpy.Parameter': 'rclpy.parameter.Parameter'},
 )

@@ -6,7 +6,7 @@ Source: CPython 3.12, ``threading.py``, ``queue.py``, ``concurrent/futures/``.
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.waits.outside_names import CALLS, READS_OF_CAMERAS
+from ros2cc_extract.extract.static.concurrency.machine.outside_names import CALLS, READS_OF_CAMERAS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.effects import (

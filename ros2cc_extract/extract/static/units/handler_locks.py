@@ -1,0 +1,113 @@
+"""
+Locks that a handler of a signal takes, and that the main thread may hold when the signal comes.
+
+The handler runs between two lines of the main thread, which goes on only behind it: a
+``threading.Lock`` that the main thread holds is never given back. An ``RLock`` may be taken again,
+and what another thread holds is given back meanwhile.
+Sources: CPython 3.12, ``signal`` (handlers run in the main thread); rclpy 7.1.6, ``executors.py``
+(a ``MultiThreadedExecutor`` runs callbacks in threads of a pool). Measured on 7.1.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.diagnostics import Diagnostic, RelatedPlace, Severity
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    ExecutorState,
+    RosWorld,
+    Spin,
+)
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import MULTI
+from ros2cc_extract.extract.static.python.machine.library_state import PlainState
+from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
+    Function,
+    Instance,
+    Value,
+    options_of,
+)
+from ros2cc_extract.light_dataclasses import dataclass
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Act
+
+
+@dataclass(frozen=True)
+class _Take:
+    """Somebody takes a lock in the main thread; ``by`` is empty for the main program itself."""
+
+    lock: str
+    place: Place
+    by: str
+
+
+def note_handler_locks(world: RosWorld) -> None:
+    """Tell of such locks, when all was followed."""
+    for number, handler in enumerate(world.signal_handlers):
+        acts = handler.effects.locks if handler.interrupts else []
+        for act in acts:
+            is_waited_for = not act.tries and isinstance(act.name, str) and act.source is not None
+            if is_waited_for and _is_plain(str(act.name), world):
+                held = next(_held_in_main(str(act.name), number, world), None)
+                if held is not None:
+                    world.diagnostics.append(_told(handler, act, held))
+
+
+def _is_plain(name: str, world: RosWorld) -> bool:
+    """Whether its own holder waits for it as well."""
+    hint, _, number = name.partition('#')
+    locks = world.locks.get(hint, [])
+    index = int(number) - 1 if number.isdigit() else 0
+    state = locks[index].state if index < len(locks) else None
+    return isinstance(state, PlainState) and state.kind == 'lock'
+
+
+def _held_in_main(name: str, handler: int, world: RosWorld) -> Iterator[_Take]:
+    """Who takes the lock in the main thread when the handler of that number is there."""
+    for lock, place, handlers in world.main_takes:
+        if lock == name and handlers > handler:
+            yield _Take(lock, place, '')
+    served = [node for spin in world.spins.values() for node in _run_in_main(spin)]
+    for entity in world.entities:
+        if entity.effects is None or not any(entity.node is each for each in served):
+            continue
+        for act in entity.effects.locks:
+            if act.name == name and act.source is not None:
+                yield _Take(name, act.source, _called(entity.callback))
+
+
+def _run_in_main(spin: Spin) -> Iterator[Instance]:
+    """The nodes whose callbacks the main thread runs itself by that spin."""
+    state = spin.executor.state
+    if spin.in_thread or spin.thread != 0 or not isinstance(state, ExecutorState):
+        return
+    is_pool = any(getattr(cls, 'name', '') == MULTI for cls in spin.executor.mro)
+    if is_pool or state.unresolved is not None or state.unknown is not None:
+        return
+    added = [each for one in spin.executor.slots.get('__nodes__', ()) for each in options_of(one)]
+    yield from (*spin.nodes, *(each for each in added if isinstance(each, Instance)))
+
+
+def _called(callback: Value | None) -> str:
+    function = callback.function if isinstance(callback, Bound) else callback
+    if not isinstance(function, Function):
+        return 'a callback'
+    owner = callback.receiver if isinstance(callback, Bound) else None
+    return f'{owner.class_name}.{function.name}' if isinstance(owner, Instance) else function.name
+
+
+def _told(handler: ActivityState, act: Act, held: _Take) -> Diagnostic:
+    who = held.by or 'the main program'
+    return Diagnostic(
+        severity=Severity.ERROR,
+        slug='lock-order',
+        place=act.source or handler.place,
+        message=f'{_called(handler.target)}, which handles a signal, takes {act.name}, which '
+        f'{who} may hold in the same thread: it waits for what it has interrupted, forever',
+        help='only store a flag in the handler, or use a threading.RLock',
+        related=(
+            RelatedPlace(held.place, f'{act.name} is taken here, in the main thread'),
+            RelatedPlace(handler.place, 'the handler is set here'),
+        ),
+    )
