@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from pathlib import Path
 
-from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.diagnostics import UNREAD, Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.launch.api import Launch, launch
 from ros2cc_extract.extract.launch.workspace.packages import Executable, Known
@@ -144,7 +144,7 @@ class _Builder:
             whole=next((each for each in found.wholes if each.entry == entry), None),
         )
         if entry is None:
-            return replace(process, outside=Unknown('no start of a node is in sight in its file'))
+            return replace(process, outside=_without_start(found, file))
         return process
 
     def _scan_once(self, path: Path, parameters: GivenParameters) -> Extraction:
@@ -262,6 +262,14 @@ def _named(graphs: Sequence[NodeGraph]) -> list[NodeGraph]:
     """The nodes of a program; one that is not known may be one of those that are."""
     known = [each for each in graphs if isinstance(each.name, str)]
     return known or list(graphs)
+
+
+def _without_start(found: Extraction, file: str) -> Unknown:
+    """Why no node is started in a file that a process runs."""
+    for each in found.diagnostics:
+        if each.slug in UNREAD and each.place.file == file:
+            return Unknown(f'its file cannot be read: {each.message}', each.place)
+    return Unknown('no start of a node is in sight in its file')
 
 
 def _told(process: Process) -> Diagnostic:
