@@ -72,6 +72,21 @@ def test_who_is_not_in_sight_may_offer_what_is_wanted_in_its_namespace(
     assert re.findall(r': (?:note|warning) (CC70\d): ', out.getvalue()) == codes
 
 
+def test_who_is_started_by_a_file_that_is_not_in_sight_may_offer_anything(tmp_path: Path) -> None:
+    """As a simulator, which publishes the time."""
+    camera = f'python3 {HERE}/programs/camera.py --ros-args -p use_sim_time:=true'
+    path = tmp_path / 'all.launch.xml'
+    text = (
+        f'<launch><arg name="world"/>{{}}<executable cmd="{camera} -p frame_rate:=3.0"/></launch>'
+    )
+    include = '<include file="$(find-pkg-share gz_sim)/launch/gz.launch.py"/>'
+    for beside, codes in (('', ['CC704']), (include, [])):
+        path.write_text(text.format(beside), encoding='utf-8')
+        out = io.StringIO()
+        main(['check', '--no-cache', str(path)], out, io.StringIO())
+        assert re.findall(r': (?:note|warning) (CC70\d): ', out.getvalue()) == codes
+
+
 def test_an_argument_of_the_launch_file_decides() -> None:
     path = LAUNCH / 'calls_back_good.launch.py'
     codes = [code for code, _, _ in found_in(path, 'beside:=false')]

@@ -45,6 +45,8 @@ _MOST_COST, _COST_OF_PROCESS, _COST_OF_FACT, _LETTERS_FOR_ONE = 100_000, 100, 4,
 Load = Callable[[Path, Context], Sequence[Action]]
 UNRESOLVED = 'launch-unresolved'
 """Slug of what a launch file says that could not be told."""
+UNSET = 'launch-argument-unset'
+"""Slug of an argument without a value: whoever needs it is there, and says so."""
 
 
 class Execution:
@@ -176,7 +178,15 @@ class Execution:
         else:
             why = f'launch argument {name!r} has no default: give {name}:=VALUE'
             self._context.set(name, Unknown(why, action.place))
-            self._note(action.place, Unknown(why))
+            self.noticed.append(
+                Diagnostic(
+                    severity=Severity.NOTE,
+                    slug=UNSET,
+                    place=action.place,
+                    message=why,
+                    help='what depends on it is not known',
+                )
+            )
 
     def _set_configuration(self, action: SetConfiguration) -> None:
         name = self._evaluator.value(action.name)

@@ -206,7 +206,7 @@ def test_what_cannot_be_followed_is_named(tmp_path: Path) -> None:
     found = followed(tmp_path, body)
     assert lines(found) == ['node p e name=?']
     assert [each.message for each in found.noticed] == [
-        "not followed: launch argument 'needed' has no default: give needed:=VALUE",
+        "launch argument 'needed' has no default: give needed:=VALUE",
         'not followed: included launch file: package elsewhere is not in sight '
         '(robot/launch/a.launch.py:18:13)',
     ]
