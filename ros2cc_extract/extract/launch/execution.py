@@ -169,13 +169,9 @@ class Execution:
         if isinstance(name, Unknown):
             return
         default = None if action.default is None else self._evaluator.value(action.default)
-        if name in self._context.scope.configurations:
-            # Whether it is set already does not matter where it is set to just this.
-            if default is not None and default == self._context.scope.perhaps.get(name):
-                self._context.set(name, default)
-        elif default is not None:
-            self._context.set(name, _at(default, action.place))
-        else:
+        if default is not None:
+            default = _at(default, action.place)
+        if not self._context.declare(name, default):
             why = f'launch argument {name!r} has no default: give {name}:=VALUE'
             self._context.set(name, Unknown(why, action.place))
             self.noticed.append(

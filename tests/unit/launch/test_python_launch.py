@@ -70,7 +70,7 @@ from tests.unit.launch.following import followed, lines, package
             "            Node(package='p', executable='never', condition=UnlessCondition(on)),\n"
             '        ], condition=perhaps, scoped=False),\n'
             "        Node(package='p', executable='behind', name=on)])",
-            ['node p in ns=/x a:=b perhaps', 'node p behind name=? ns=?'],
+            ['node p in ns=/x a:=b perhaps', 'node p behind name=true ns=?'],
         ),
         (
             "perhaps = IfCondition(EnvironmentVariable('REAL'))\n"
@@ -83,6 +83,14 @@ from tests.unit.launch.following import followed, lines, package
             "        DeclareLaunchArgument('two', default_value='c'),\n"
             "        Node(package='p', executable='e', name=both)])",
             ['node p e name=a', 'node p e name=?'],
+        ),
+        (
+            "one = DeclareLaunchArgument('one', default_value='a')\n"
+            "    node = Node(package='p', executable='e', name=LaunchConfiguration('one'))\n"
+            "    if os.environ.get('REAL'):\n"
+            '        return LaunchDescription([one, node])\n'
+            '    return LaunchDescription([one, node])',
+            ['node p e name=a perhaps', 'node p e name=a perhaps'],
         ),
         (
             "perhaps = IfCondition(EnvironmentVariable('REAL'))\n"

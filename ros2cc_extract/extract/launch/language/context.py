@@ -24,7 +24,8 @@ class Scope:
     """
     What holds at one point.
 
-    :param perhaps: values of those configurations that are either these or not set at all.
+    :param perhaps: values of those configurations that are either these or not set at all, so that
+        whoever asks for one either gets this or ends the launch.
     :param namespace: ``None`` before any is pushed.
     """
 
@@ -49,6 +50,20 @@ class Context:
         self.file = ''
         self.unset: dict[str, Place | None] = {}
         self.steps = self.letters = 0
+
+    def declare(self, name: str, default: Value | None) -> bool:
+        """Set a configuration where it is not set yet; say whether it is set now."""
+        scope = self.scope
+        if name not in scope.configurations:
+            if default is not None:
+                self.set(name, default)
+            return default is not None
+        if default is not None and name in scope.perhaps:
+            if default == scope.perhaps[name]:
+                self.set(name, default)
+            else:
+                self.set(name, scope.configurations[name])  # one of two
+        return True
 
     def set(self, name: str, value: Value) -> None:
         """Set a configuration for what follows in this scope."""
@@ -89,11 +104,12 @@ class Context:
         known, perhaps = dict(after.configurations), dict(after.perhaps)
         for name in {**before.configurations, **known}:
             old, new = before.configurations.get(name), known.get(name)
-            if old != new:
-                known[name] = why
-                perhaps.pop(name, None)
-                if old is None and new is not None:
-                    perhaps[name] = new
+            if old == new:
+                continue
+            known[name] = why
+            value = perhaps.pop(name, new)
+            if value is not None and (old is None or before.perhaps.get(name) == value):
+                perhaps[name] = value
         namespace = after.namespace if after.namespace == before.namespace else why
         self.scope = Scope(
             configurations=known,
