@@ -198,17 +198,8 @@ def changes(
 
 
 def not_compared(old: Side, new: Side) -> frozenset[str]:
-    """Names of the units with findings on one side that the other side left partly open."""
-    lacking = [
-        (left or right, new if left else old)
-        for left, right in _pairs(old, new)
-        if left is None or right is None
-    ]
-    return frozenset(
-        finding.unit
-        for finding, side in lacking
-        if finding is not None and finding.unit is not None and _is_open(finding, side)
-    )
+    """Names of the units of which a side left something open: what changes there is not known."""
+    return old.undecided | new.undecided
 
 
 Pair = tuple[Finding | None, Finding | None]

@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from pathlib import Path
 
-from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.diagnostics import UNREAD, Diagnostic, Severity
 from ros2cc_extract.extract.extraction import Extraction
 from ros2cc_extract.extract.launch.api import Launch, launch
+from ros2cc_extract.extract.launch.execution import UNSET
 from ros2cc_extract.extract.launch.workspace.packages import Executable, Known
 from ros2cc_extract.extract.static.program.given_parameters import GivenParameters
 from ros2cc_extract.files import Files
@@ -20,7 +21,7 @@ from ros2cc_extract.source_locations import Unknown, shown_name
 from ros2cc_extract.spec.model import Spec, Unresolved
 from ros2cc_extract.spec.node_graph import NodeGraph
 from ros2cc_extract.spec.system.launched import Launched
-from ros2cc_extract.spec.system.model import Process, System, SystemNode
+from ros2cc_extract.spec.system.model import NOT_FOLLOWED, Process, System, SystemNode
 from ros2cc_extract.spec.system.nodes import system_node
 from ros2cc_extract.spec.system.own_answers import with_own_answers
 from ros2cc_extract.spec.system.parameters import parameters_for
@@ -144,7 +145,7 @@ class _Builder:
             whole=next((each for each in found.wholes if each.entry == entry), None),
         )
         if entry is None:
-            return replace(process, outside=Unknown('no start of a node is found in its file'))
+            return replace(process, outside=_without_start(found, file))
         return process
 
     def _scan_once(self, path: Path, parameters: GivenParameters) -> Extraction:
@@ -264,6 +265,14 @@ def _named(graphs: Sequence[NodeGraph]) -> list[NodeGraph]:
     return known or list(graphs)
 
 
+def _without_start(found: Extraction, file: str) -> Unknown:
+    """Why no node is started in a file that a process runs."""
+    for each in found.diagnostics:
+        if each.slug in UNREAD and each.place.file == file:
+            return Unknown(f'its file cannot be read: {each.message}', each.place)
+    return Unknown('no start of a node is found in its file')
+
+
 def _diagnostic(process: Process) -> Diagnostic:
     why = process.outside
     assert why is not None
@@ -281,8 +290,10 @@ def unresolved_of(
 ) -> Iterator[Unresolved]:
     """What of processes and of the files that start them could not be found out."""
     for diagnostic in noticed:
+        subject, action = NOT_FOLLOWED
+        fact = 'argument' if diagnostic.slug == UNSET else action
         yield Unresolved(
-            subject='launch', fact='action', reason=diagnostic.message, source=diagnostic.place
+            subject=subject, fact=fact, reason=diagnostic.message, source=diagnostic.place
         )
     for process in processes:
         facts = list(process.launched.open)

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from ros2cc_extract.cli.commands import upgrade
 from ros2cc_extract.cli.main import main
+from tests.support.knots import knot
 
 RELEASES = Path(__file__).parents[1] / 'releases'
 NODE = """\
@@ -82,6 +84,21 @@ def test_upgrade_within_a_distribution(node: str) -> None:
 
 def test_upgrade_that_changes_nothing(node: str) -> None:
     assert upgraded(node, '7.1.9', 'jazzy') == (0, ['from rclpy 7.1.9 to 7.1.11: no change'])
+
+
+def test_what_is_decided_on_neither_is_told(node: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """That nothing changes in it is not known."""
+    monkeypatch.setattr(upgrade, 'SECONDS', 0.3)
+    knotted = Path(node).with_name('knot.py')
+    knotted.write_text(knot(7), encoding='utf-8')
+    status, out, _ = run('upgrade', '--from', '7.1.9', '--to', 'jazzy', str(knotted))
+    assert (status, out.splitlines()) == (
+        3,
+        [
+            'knot: not all of it is compared, because a limit was reached',
+            'from rclpy 7.1.9 to 7.1.11: no change',
+        ],
+    )
 
 
 def test_release_that_nobody_has_looked_at_is_told(node: str) -> None:

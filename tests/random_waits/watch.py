@@ -65,11 +65,16 @@ def watch(file: str, out: str, together: int = 1) -> None:
     """
     Look again and again; end the process when the time is up.
 
-    :param together: so many processes ask each other, and write to ``out``: none ends before the
-        last has looked, for what waits for one that has ended would stand still.
+    :param together: so many processes ask each other, and write to ``out``: none looks before the
+        last is served, and none ends before the last has looked: what waits for one that is not
+        served yet, or has ended, would stand still.
     """
     since: dict[int, tuple[tuple[object, int, str], float]] = {}
-    wait_for_spin(time.monotonic() + LONGEST_START_S)
+    latest = time.monotonic() + LONGEST_START_S
+    wait_for_spin(latest)
+    if together > 1:
+        write_line(spun(out), file)
+        wait_for_all(spun(out), together, latest)
     begun = time.monotonic()
     while time.monotonic() - begun < LONGEST_S:
         time.sleep(LOOKS_S)
@@ -81,14 +86,27 @@ def watch(file: str, out: str, together: int = 1) -> None:
         }
     now = time.monotonic()
     stuck = sorted({one[2] for one, start in since.values() if now - start >= STILL_S})
-    with Path(out).open('a', encoding='utf-8') as stream:
-        stream.write(json.dumps({'file': file, 'stuck': stuck}) + '\n')
-    latest = time.monotonic() + LONGEST_START_S + LONGEST_S
-    while time.monotonic() < latest:
-        if len(Path(out).read_text(encoding='utf-8').splitlines()) >= together:
-            break
-        time.sleep(LOOKS_S)
+    write_line(Path(out), {'file': file, 'stuck': stuck})
+    wait_for_all(Path(out), together, time.monotonic() + LONGEST_START_S + LONGEST_S)
     os._exit(0)
+
+
+def spun(out: str) -> Path:
+    """Where the processes of a system say that they are served."""
+    return Path(f'{out}.spun')
+
+
+def write_line(path: Path, row: object) -> None:
+    with path.open('a', encoding='utf-8') as stream:
+        stream.write(json.dumps(row) + '\n')
+
+
+def wait_for_all(path: Path, together: int, latest: float) -> None:
+    """Wait until so many have written their line."""
+    while time.monotonic() < latest:
+        if len(path.read_text(encoding='utf-8').splitlines()) >= together:
+            return
+        time.sleep(LOOKS_S)
 
 
 def disturb(file: str) -> None:

@@ -53,13 +53,14 @@ class Running:
     log: Path
 
     def lines(self) -> Iterator[str]:
-        """What the observed process has said."""
-        name = observed(self.path)
-        first = ''
-        for line in self.log.read_text(encoding='utf-8', errors='replace').splitlines():
-            tag = re.match(rf'\[({re.escape(name)}\.py-\d+)\] (.*)', line)
-            if tag is not None and tag[1] == (first := first or tag[1]):
-                yield tag[2]
+        """What the observed process has said: the one started first, not who speaks first."""
+        name = re.escape(observed(self.path))
+        log = self.log.read_text(encoding='utf-8', errors='replace')
+        begins = rf'^\[INFO\] \[{name}\.py-(\d+)\]: process started'
+        started = re.findall(begins, log, re.MULTILINE)
+        if started:
+            first = min(map(int, started))
+            yield from re.findall(rf'^\[{name}\.py-{first}\] (.*)', log, re.MULTILINE)
 
     def count(self) -> int:
         return sum(line.startswith('goes on') for line in self.lines())

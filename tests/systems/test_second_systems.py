@@ -8,11 +8,12 @@ Kilted each bad one stands still, and each good one goes on.
 from __future__ import annotations
 
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
 
-from tests.systems.by_launch import SECOND, launch_files
+from tests.systems.by_launch import SECOND, Running, launch_files
 from tests.systems.test_systems import expected, found_in
 
 
@@ -21,6 +22,21 @@ def test_a_system_has_the_findings_that_it_names(path: Path) -> None:
     found, wanted = found_in(path, below=SECOND), expected(path)
     assert [each[:2] for each in found] == [each[:2] for each in wanted]
     assert all(want in has for (_, _, has), (_, _, want) in zip(found, wanted, strict=True))
+
+
+def test_the_process_that_was_started_first_is_observed(tmp_path: Path) -> None:
+    """Of two of one program either may speak first."""
+    log = tmp_path / 'log'
+    log.write_text(
+        '[INFO] [ticker.py-2]: process started with pid [8]\n'
+        '[INFO] [ticker.py-1]: process started with pid [7]\n'
+        '[ticker.py-2] asks\n[ticker.py-1] asks\n[ticker.py-2] goes on\n',
+        encoding='utf-8',
+    )
+    path = SECOND / 'launch' / 'clock_bad.launch.py'
+    with subprocess.Popen(['true'], text=True) as process:
+        running = Running(path, process, 0.0, log)
+    assert (list(running.lines()), running.count()) == (['asks'], 0)
 
 
 SENDS_REPLIES = """\

@@ -129,6 +129,16 @@ def test_nothing_in_sight_is_undecided(tmp_path: Path) -> None:
     assert 'process e is outside: package elsewhere is not found' in out.getvalue()
 
 
+def test_a_process_whose_file_cannot_be_read_says_so(tmp_path: Path) -> None:
+    """That no start of a node is in sight there would be true, and lead nowhere."""
+    (tmp_path / 'node.py').write_text('import rclpy\nrclpy.init(\n', encoding='utf-8')
+    path = tmp_path / 'all.launch.xml'
+    cmd = f'python3 {tmp_path / "node.py"}'
+    path.write_text(f'<launch><executable cmd="{cmd}"/></launch>', encoding='utf-8')
+    (process,) = system_of(path)['system']['processes']
+    assert "its file cannot be read: syntax error: '(' was never closed" in process['outside']
+
+
 def test_an_argument_needs_a_launch_file(tmp_path: Path) -> None:
     path = tmp_path / 'node.py'
     path.write_text('')

@@ -51,6 +51,42 @@ def test_a_system_has_the_findings_that_it_names(path: Path) -> None:
     assert all(want in has for (_, _, has), (_, _, want) in zip(found, wanted, strict=True))
 
 
+@pytest.mark.parametrize(
+    ('elsewhere', 'codes'), [('', []), ('namespace="robot"', ['CC701']), (None, ['CC701'])]
+)
+def test_who_is_not_in_sight_may_offer_what_is_wanted_in_its_namespace(
+    elsewhere: str | None, codes: list[str], tmp_path: Path
+) -> None:
+    """Topics of sensors and what a program makes of them differ by the namespace only."""
+    programs = HERE / 'programs'
+    beside = '' if elsewhere is None else f'<node pkg="filters" exec="filter" {elsewhere}/>'
+    path = tmp_path / 'all.launch.xml'
+    path.write_text(
+        f'<launch><executable cmd="python3 {programs}/asker.py"/>{beside}'
+        f'<executable cmd="python3 {programs}/sink.py --ros-args -r request:=robot/plan"/>'
+        '</launch>',
+        encoding='utf-8',
+    )
+    out = io.StringIO()
+    main(['check', '--no-cache', str(path)], out, io.StringIO())
+    assert re.findall(r': (?:note|warning) (CC70\d): ', out.getvalue()) == codes
+
+
+def test_who_is_started_by_a_file_that_is_not_in_sight_may_offer_anything(tmp_path: Path) -> None:
+    """As a simulator, which publishes the time."""
+    camera = f'python3 {HERE}/programs/camera.py --ros-args -p use_sim_time:=true'
+    path = tmp_path / 'all.launch.xml'
+    text = (
+        f'<launch><arg name="world"/>{{}}<executable cmd="{camera} -p frame_rate:=3.0"/></launch>'
+    )
+    include = '<include file="$(find-pkg-share gz_sim)/launch/gz.launch.py"/>'
+    for beside, codes in (('', ['CC704']), (include, [])):
+        path.write_text(text.format(beside), encoding='utf-8')
+        out = io.StringIO()
+        main(['check', '--no-cache', str(path)], out, io.StringIO())
+        assert re.findall(r': (?:note|warning) (CC70\d): ', out.getvalue()) == codes
+
+
 def test_an_argument_of_the_launch_file_decides() -> None:
     path = LAUNCH / 'calls_back_good.launch.py'
     codes = [code for code, _, _ in found_in(path, 'beside:=false')]

@@ -55,7 +55,7 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
         for row in change.because:
             print(f'    because of {row.name}: {row.source}', file=stdout)
     for unit in sorted(not_compared(*sides)):
-        print(f'{unit}: not compared, because a limit was reached', file=stdout)
+        print(f'{unit}: not all of it is compared, because a limit was reached', file=stdout)
     count = f'{len(found)} change{"" if len(found) == 1 else "s"}' if found else 'no change'
     print(f'from rclpy {old} to {new}: {count}', file=stdout)
     if found:

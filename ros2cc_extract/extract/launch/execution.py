@@ -45,6 +45,8 @@ _MOST_COST, _COST_OF_PROCESS, _COST_OF_FACT, _LETTERS_FOR_ONE = 100_000, 100, 4,
 Load = Callable[[Path, Context], Sequence[Action]]
 UNRESOLVED = 'launch-unresolved'
 """Slug of what a launch file says that could not be resolved."""
+UNSET = 'launch-argument-unset'
+"""Slug of an argument without a value: what needs it reports it."""
 
 
 class Execution:
@@ -92,16 +94,23 @@ class Execution:
 
     @contextmanager
     def _doubted(self, action: Action) -> Iterator[bool]:
-        """Whether the action may be taken; what it starts is conditional where that is open."""
+        """
+        Whether the action may be taken; what it starts is conditional where that is open.
+
+        Inside, it is taken; what it sets is not known behind it.
+        """
         doubts = [action.open] if action.open is not None else []
         holds = True if action.condition is None else self._evaluator.holds(action.condition)
         if isinstance(holds, Unknown):
             doubts.append(Unknown(holds.reason, holds.at or action.place))
         self._doubts += doubts
+        before = self._context.scope
         try:
             yield holds is not False
         finally:
             del self._doubts[len(self._doubts) - len(doubts) :]
+            if doubts and self._context.join(before, doubts[-1]):
+                self._note(action.place, Unknown('remap of the scope is not known'))
 
     def _one(self, action: Action) -> None:
         if isinstance(action, StartNode):
@@ -140,13 +149,13 @@ class Execution:
         elif isinstance(action, SetConfiguration):
             self._set_configuration(action)
         elif isinstance(action, PushNamespace):
-            pushed = self._sure(self._evaluator.value(action.namespace))
+            pushed = self._evaluator.value(action.namespace)
             below = allowed(_below(scope.namespace, pushed))
             self._context.scope = replace(scope, namespace=below)
         elif isinstance(action, PushRemap):
             old = allowed(self._evaluator.value(action.old))
             new = allowed(self._evaluator.value(action.new))
-            if isinstance(old, Unknown) or isinstance(new, Unknown) or self._doubts:
+            if isinstance(old, Unknown) or isinstance(new, Unknown):
                 self._note(action.place, Unknown('remap of the scope is not known'))
             else:
                 remap = Remap(old=old, new=new, source=action.place)
@@ -155,21 +164,25 @@ class Execution:
             parameters = (*scope.parameters, *action.parameters)
             self._context.scope = replace(scope, parameters=parameters)
 
-    def _sure(self, value: Value) -> Value:
-        """What is set on a branch that may not be taken is not known behind."""
-        return self._doubts[-1] if self._doubts else value
-
     def _declare(self, action: Declare) -> None:
         name = self._evaluator.value(action.name)
-        if isinstance(name, Unknown) or name in self._context.scope.configurations:
+        if isinstance(name, Unknown):
             return
-        if action.default is not None:
-            value = self._evaluator.value(action.default)
-            self._context.set(name, _at(value, action.place))
-        else:
+        default = None if action.default is None else self._evaluator.value(action.default)
+        if default is not None:
+            default = _at(default, action.place)
+        if not self._context.declare(name, default):
             why = f'launch argument {name!r} has no default: give {name}:=VALUE'
             self._context.set(name, Unknown(why, action.place))
-            self._note(action.place, Unknown(why))
+            self.noticed.append(
+                Diagnostic(
+                    severity=Severity.NOTE,
+                    slug=UNSET,
+                    place=action.place,
+                    message=why,
+                    help='what depends on it is not known',
+                )
+            )
 
     def _set_configuration(self, action: SetConfiguration) -> None:
         name = self._evaluator.value(action.name)
@@ -178,7 +191,7 @@ class Execution:
         elif action.value is None:
             self._context.unset_configuration(name)
         else:
-            self._context.set(name, self._sure(self._evaluator.value(action.value)))
+            self._context.set(name, self._evaluator.value(action.value))
 
     def _group(self, action: Group) -> None:
         self._later += [action.later] if action.later else []
@@ -207,7 +220,7 @@ class Execution:
         if action.open_arguments is not None:
             self._note(action.place, action.open_arguments)
         for name, value in list(self._pairs(action.arguments)):
-            self._context.set(name, self._sure(value))
+            self._context.set(name, value)
         if isinstance(path, Unknown):
             self._note(action.place, Unknown(f'included launch file: {path.reason}', path.at))
             return

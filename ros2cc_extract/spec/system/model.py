@@ -127,6 +127,10 @@ class Connection:
         return tuple(end for end in self.ends if end.endpoint.kind is kind)
 
 
+NOT_FOLLOWED = ('launch', 'action')
+"""Subject and fact of what a launch file does and could not be followed: it may start more."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class System:
     """
@@ -163,9 +167,11 @@ class System:
 
     @cached_property
     def is_whole(self) -> bool:
-        """Whether all code and all names are known."""
+        """Whether all that is started, all code and all names are known."""
         are_known = all(
             process.outside is None and all(node.open is None for node in process.nodes)
             for process in self.processes
         )
-        return are_known and all(isinstance(end.endpoint.name, str) for end in self.ends)
+        is_followed = all((each.subject, each.fact) != NOT_FOLLOWED for each in self.unresolved)
+        are_named = all(isinstance(end.endpoint.name, str) for end in self.ends)
+        return are_known and is_followed and are_named

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+NAMESPACE = 'the namespace'
 _SHORTEST = 4
 
 
@@ -16,7 +17,7 @@ def how_near(one: str, other: str) -> str | None:
     if _last(one) == _last(other):
         above = _namespace(one), _namespace(other)
         if any(a.startswith(b) for a, b in (above, above[::-1])):
-            return 'the namespace'
+            return NAMESPACE
         return 'one letter' if _is_slip(one, other, *map(_part, above)) else None
     if one.lower() == other.lower():
         return 'upper and lower case'

@@ -13,6 +13,7 @@ def generate_launch_description():
             Node(
                 package='systems',
                 executable='good_viewer.py',
+                parameters=[{'use_sim_time': True}],  # it has nothing that waits for time
                 remappings=[('image', '/image')],
             ),
         ]

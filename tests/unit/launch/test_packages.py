@@ -73,6 +73,24 @@ def test_a_program_may_be_renamed_and_a_built_one_is_no_python(tmp_path: Path) -
     assert packages(home).executable('robot', 'fast') == Executable(None)
 
 
+@pytest.mark.parametrize(
+    'text',
+    [
+        'set(program fast)\nadd_executable(${program} f.cpp)',
+        'project(fast VERSION 1.0)\nadd_executable(${PROJECT_NAME} f.cpp)',
+        'add_library(part SHARED f.cpp)\n'
+        'rclcpp_components_register_node(part PLUGIN "robot::Fast" EXECUTABLE fast)',
+    ],
+)
+def test_what_is_built_under_a_name_of_a_variable_or_for_a_component(
+    text: str, tmp_path: Path
+) -> None:
+    home = package(tmp_path)
+    (home / 'CMakeLists.txt').write_text(text)
+    assert packages(home).executable('robot', 'fast') == Executable(None)
+    assert packages(home).executable('robot', 'part') is None
+
+
 def test_an_installed_package_has_its_programs_in_lib(tmp_path: Path) -> None:
     home = package(tmp_path / 'share')
     program = tmp_path / 'lib' / 'robot' / 'talk'

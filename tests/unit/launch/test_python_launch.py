@@ -62,6 +62,46 @@ from tests.unit.launch.following import followed, lines, package
             ['node p e perhaps', 'node reason?'],
         ),
         (
+            "perhaps = IfCondition(EnvironmentVariable('REAL'))\n"
+            "    on = LaunchConfiguration('on')\n"
+            '    return LaunchDescription([\n'
+            "        GroupAction([SetLaunchConfiguration('on', 'true'), PushRosNamespace('x'),\n"
+            "            SetRemap('a', 'b'), Node(package='p', executable='in'),\n"
+            "            Node(package='p', executable='never', condition=UnlessCondition(on)),\n"
+            '        ], condition=perhaps, scoped=False),\n'
+            "        Node(package='p', executable='behind', name=on)])",
+            ['node p in ns=/x a:=b perhaps', 'node p behind name=true ns=?'],
+        ),
+        (
+            "perhaps = IfCondition(EnvironmentVariable('REAL'))\n"
+            "    both = [LaunchConfiguration('one'), LaunchConfiguration('two')]\n"
+            '    return LaunchDescription([\n'
+            "        DeclareLaunchArgument('one', default_value='a', condition=perhaps),\n"
+            "        DeclareLaunchArgument('one', default_value='a'),\n"
+            "        Node(package='p', executable='e', name=LaunchConfiguration('one')),\n"
+            "        SetLaunchConfiguration('two', 'b', condition=perhaps),\n"
+            "        DeclareLaunchArgument('two', default_value='c'),\n"
+            "        Node(package='p', executable='e', name=both)])",
+            ['node p e name=a', 'node p e name=?'],
+        ),
+        (
+            "one = DeclareLaunchArgument('one', default_value='a')\n"
+            "    node = Node(package='p', executable='e', name=LaunchConfiguration('one'))\n"
+            "    if os.environ.get('REAL'):\n"
+            '        return LaunchDescription([one, node])\n'
+            '    return LaunchDescription([one, node])',
+            ['node p e name=a perhaps', 'node p e name=a perhaps'],
+        ),
+        (
+            "perhaps = IfCondition(EnvironmentVariable('REAL'))\n"
+            '    return LaunchDescription([\n'
+            "        SetLaunchConfiguration('one', 'a'),\n"
+            "        UnsetLaunchConfiguration('one', condition=perhaps),\n"
+            "        DeclareLaunchArgument('one', default_value='b'),\n"
+            "        Node(package='p', executable='e', name=LaunchConfiguration('one'))])",
+            ['node p e name=?'],
+        ),
+        (
             'def more(context, suffix):\n'
             "        name = LaunchConfiguration('robot').perform(context) + suffix\n"
             "        count = int(context.launch_configurations['count'])\n"
@@ -174,7 +214,7 @@ def test_what_cannot_be_followed_is_named(tmp_path: Path) -> None:
     found = followed(tmp_path, body)
     assert lines(found) == ['node p e name=?']
     assert [each.message for each in found.noticed] == [
-        "not followed: launch argument 'needed' has no default: give needed:=VALUE",
+        "launch argument 'needed' has no default: give needed:=VALUE",
         'not followed: included launch file: package elsewhere is not found '
         '(robot/launch/a.launch.py:18:13)',
     ]

@@ -24,10 +24,13 @@ class Scope:
     """
     What holds at one point.
 
+    :param perhaps: values of those configurations that are either these or not set at all, so that
+        whoever asks for one either gets this or ends the launch.
     :param namespace: ``None`` before any is pushed.
     """
 
     configurations: dict[str, Value] = field(default_factory=dict)
+    perhaps: dict[str, Value] = field(default_factory=dict)
     namespace: Value | None = None
     remaps: tuple[Remap, ...] = ()
     parameters: tuple[ParameterSource, ...] = ()
@@ -48,19 +51,37 @@ class Context:
         self.unset: dict[str, Place | None] = {}
         self.steps = self.letters = 0
 
+    def declare(self, name: str, default: Value | None) -> bool:
+        """Set a configuration where it is not set yet; say whether it is set now."""
+        scope = self.scope
+        if name not in scope.configurations:
+            if default is not None:
+                self.set(name, default)
+            return default is not None
+        if default is not None and name in scope.perhaps:
+            if default == scope.perhaps[name]:
+                self.set(name, default)
+            else:
+                self.set(name, scope.configurations[name])  # one of two
+        return True
+
     def set(self, name: str, value: Value) -> None:
         """Set a configuration for what follows in this scope."""
         known = {**self.scope.configurations, name: value}
-        self.scope = replace(self.scope, configurations=known)
+        perhaps = {n: v for n, v in self.scope.perhaps.items() if n != name}
+        self.scope = replace(self.scope, configurations=known, perhaps=perhaps)
 
     def unset_configuration(self, name: str) -> None:
         """Take a configuration away."""
-        known = {n: v for n, v in self.scope.configurations.items() if n != name}
-        self.scope = replace(self.scope, configurations=known)
+        known, perhaps = (
+            {n: v for n, v in each.items() if n != name}
+            for each in (self.scope.configurations, self.scope.perhaps)
+        )
+        self.scope = replace(self.scope, configurations=known, perhaps=perhaps)
 
     def only(self, configurations: dict[str, Value]) -> None:
         """Keep no configuration but these."""
-        self.scope = replace(self.scope, configurations=dict(configurations))
+        self.scope = replace(self.scope, configurations=dict(configurations), perhaps={})
 
     @contextmanager
     def group(self) -> Iterator[None]:
@@ -70,6 +91,34 @@ class Context:
             yield
         finally:
             self.scope = before
+
+    def join(self, before: Scope, why: Unknown) -> bool:
+        """
+        What was changed since then was perhaps not: of that nothing is known from here on.
+
+        Parameters that were pushed stay, and remaps that were pushed do not.
+
+        :return: whether there were such remaps.
+        """
+        after = self.scope
+        known, perhaps = dict(after.configurations), dict(after.perhaps)
+        for name in {**before.configurations, **known}:
+            old, new = before.configurations.get(name), known.get(name)
+            if old == new:
+                continue
+            known[name] = why
+            value = perhaps.pop(name, new)
+            if value is not None and (old is None or before.perhaps.get(name) == value):
+                perhaps[name] = value
+        namespace = after.namespace if after.namespace == before.namespace else why
+        self.scope = Scope(
+            configurations=known,
+            perhaps=perhaps,
+            namespace=namespace,
+            remaps=before.remaps,
+            parameters=after.parameters,
+        )
+        return after.remaps != before.remaps
 
     @contextmanager
     def within(self, file: str) -> Iterator[None]:

@@ -102,7 +102,10 @@ class Evaluator:
         name = self.value(part.name)
         if isinstance(name, Unknown):
             return name
-        known = self._context.scope.configurations.get(name)
+        scope = self._context.scope
+        if part.default is None and name in scope.perhaps:
+            return scope.perhaps[name]
+        known = scope.configurations.get(name)
         if known is not None:
             return known
         if part.default is not None:

@@ -1,7 +1,8 @@
 """
 What a ``CMakeLists.txt`` installs as programs, as far as its text shows; it is never run.
 
-Source: CMake, ``install(PROGRAMS)`` and ``install(DIRECTORY)``, ``set``, ``add_executable``.
+Source: CMake, ``install(PROGRAMS)`` and ``install(DIRECTORY)``, ``set``, ``add_executable``;
+rclcpp_components (Jazzy), ``cmake/rclcpp_components_register_node.cmake``.
 """
 
 from __future__ import annotations
@@ -31,9 +32,21 @@ def installed_programs(text: str) -> Iterator[tuple[str, str]]:
 
 
 def targets_of(text: str) -> frozenset[str]:
-    """The programs that are built."""
-    found = _commands(text, _Variables({}))
-    return frozenset(words[0] for command, words in found if command == 'add_executable' and words)
+    """The programs that are built, also those that hold one component."""
+    return frozenset(_built(text))
+
+
+def _built(text: str) -> Iterator[str]:
+    variables = _Variables({})
+    for command, words in _commands(text, variables):
+        if command == 'set' and words:
+            variables.set(words[0], words[1:])
+        elif command == 'project' and words:
+            variables.set('PROJECT_NAME', words[:1])
+        elif command == 'add_executable' and words:
+            yield words[0]
+        elif command == 'rclcpp_components_register_node':
+            yield from (word for before, word in pairwise(words) if before == 'EXECUTABLE')
 
 
 class _Variables:

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Hit, Rule
-from ros2cc_extract.source_locations import Place
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.node_graph import EndpointKind
 from ros2cc_extract.spec.system.model import Connection, End, System
-from ros2cc_extract.spec.system.near_names import how_near
+from ros2cc_extract.spec.system.near_names import NAMESPACE, how_near
 
 _WANTS = (EndpointKind.CLIENT, EndpointKind.ACTION_CLIENT, EndpointKind.SUBSCRIPTION)
 _VERBS = {
@@ -34,9 +34,25 @@ def find(system: System) -> Iterator[Hit]:
             and _types_agree(wanted, each)
             and _processes(wanted).isdisjoint(_processes(each))
             and (why := how_near(wanted.name, each.name)) is not None
+            and not (why == NAMESPACE and _may_be_offered(wanted, system))
         ]
         if near:
             yield _hit(wanted, near, system)
+
+
+def _may_be_offered(wanted: Connection, system: System) -> bool:
+    """
+    Whether a process that is not in sight may offer a name, as it runs in its namespace.
+
+    A robot has many topics that differ by the namespace only, as those of its sensors and what is
+    made of them: that alone is no slip.
+    """
+    above = wanted.name.rpartition('/')[0] or '/'
+    return any(
+        isinstance(space := process.launched.namespace, Unknown) or (space or '/') == above
+        for process in system.processes
+        if process.outside is not None
+    )
 
 
 def _is_lone(connection: Connection) -> bool:
@@ -92,7 +108,8 @@ RULE = Rule(
     what='In the system of a launch file a service, action or topic is wanted by one node and '
     'offered by none, while another node offers one that nobody wants and whose name differs by '
     'the namespace, a slash, a `~`, upper and lower case, or one letter. Code that waits for it '
-    'waits forever. A note where code of the system, or a name in it, is not known.',
+    'waits forever. A note where code of the system, or a name in it, is not known; another '
+    'namespace is not reported if a process of unknown code runs in the one that is wanted.',
     why='Names are expanded with the namespace and the name of their node and then remapped; '
     'endpoints are connected only where the result is the same. Source: design.ros2.org, '
     '"Topic and Service name mapping to DDS"; rcl (Jazzy), `expand_topic_name.c`, `remap.c`.',

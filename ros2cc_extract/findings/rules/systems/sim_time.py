@@ -6,24 +6,26 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Hit, Rule
+from ros2cc_extract.spec.model import EntityKind
 from ros2cc_extract.spec.node_graph import EndpointKind
 from ros2cc_extract.spec.system.model import Process, System
 
 PARAMETER = 'use_sim_time'
 _CLOCK = '/clock'
+_SLEEPS = ('Clock.sleep_for', 'Clock.sleep_until', 'Rate.sleep')
 
 
 def find(system: System) -> Iterator[Hit]:
     """Report nothing where something unknown may provide the time."""
     if not system.is_whole or any(_gives_time(end.endpoint) for end in system.ends):
         return
-    waiting = [process for process in system.processes if _is_simulated(process)]
+    waiting = [each for each in system.processes if _is_simulated(each) and _needs_time(each)]
     if waiting:
         names = ', '.join(str(node.name) for process in waiting for node in process.nodes)
         yield Hit(
             place=waiting[0].launched.source,
             message=f'{names}: {PARAMETER} is true, and nobody in the system publishes {_CLOCK}: '
-            'their time stands still, and their timers never fire',
+            'their time stands still, and their timers and sleeps never end',
             help=f'start a node that publishes {_CLOCK}, or leave {PARAMETER} false',
             subjects=tuple(process.name for process in waiting),
         )
@@ -39,13 +41,24 @@ def _is_simulated(process: Process) -> bool:
     return bool(values) and values[-1] is True
 
 
+def _needs_time(process: Process) -> bool:
+    """Whether anything waits for it; nothing is lost for one that only takes messages."""
+    callbacks = [each for unit in process.units for each in unit.callbacks]
+    waits = [block for each in callbacks for block in each.blocking]
+    waits += [
+        block for unit in process.units for each in unit.activities for block in each.blocking
+    ]
+    has_timer = any(each.entity is EntityKind.TIMER for each in callbacks)
+    return has_timer or any(wait.call in _SLEEPS for wait in waits)
+
+
 RULE = Rule(
     code='CC704',
     slug='sim-time-without-clock',
     severity=Severity.WARNING,
     title='Simulated time that nobody provides',
-    what='The launch file sets `use_sim_time` for a node, all code of the system is known, and '
-    'nothing in it publishes `/clock`.',
+    what='The launch file sets `use_sim_time` for a node with a timer, a rate or a `sleep_for`; '
+    'all code of the system is known, and nothing in it publishes `/clock`.',
     why='A node with simulated time takes its time from `/clock` and starts at zero; without '
     'messages there the time stands still, and timers, rates and `sleep_for` of the node never '
     'wake. Source: design.ros2.org, "Clock and Time"; rclpy 7.1.6, `time_source.py`.',
