@@ -1,4 +1,4 @@
-"""A constructor loops until simulated time has begun, which nobody takes before the spin. Mended."""
+"""A constructor loops until simulated time has begun, and spins meanwhile. Mended."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""A callback loops until two seconds of simulated time have passed, in the clock's group. Mended."""
+"""A callback loops until simulated time has passed, in a group of its own. Mended."""
 
 import time
 
