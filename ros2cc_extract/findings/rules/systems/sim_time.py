@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Hit, Rule
-from ros2cc_extract.spec.model import EntityKind
+from ros2cc_extract.spec.model import EntityKind, Spec
 from ros2cc_extract.spec.node_graph import EndpointKind
 from ros2cc_extract.spec.system.model import Process, System
 
@@ -43,12 +43,16 @@ def _is_simulated(process: Process) -> bool:
 
 def _needs_time(process: Process) -> bool:
     """Whether anything waits for it; nothing is lost for one that only takes messages."""
-    return any(
-        getattr(each, 'entity', None) is EntityKind.TIMER
-        or any(wait.call in _SLEEPS for wait in each.blocking)
-        for unit in process.units
-        for each in (*unit.callbacks, *unit.activities)
-    )
+    return any(_has_timer(unit) or _sleeps(unit) for unit in process.units)
+
+
+def _has_timer(unit: Spec) -> bool:
+    return any(callback.entity is EntityKind.TIMER for callback in unit.callbacks)
+
+
+def _sleeps(unit: Spec) -> bool:
+    doers = (*(each.blocking for each in unit.callbacks), *(a.blocking for a in unit.activities))
+    return any(wait.call in _SLEEPS for waits in doers for wait in waits)
 
 
 RULE = Rule(
