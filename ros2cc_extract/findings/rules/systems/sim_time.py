@@ -25,7 +25,8 @@ def find(system: System) -> Iterator[Hit]:
         yield Hit(
             place=waiting[0].launched.source,
             message=f'{names}: {PARAMETER} is true, and nobody in the system publishes {_CLOCK}: '
-            'their time stands still, and their timers and sleeps never end',
+            'their time stands still, and their timers and sleeps do not end until somebody does, '
+            'as a simulator or a bag that is started apart',
             help=f'start who publishes {_CLOCK}, or leave {PARAMETER} false',
             subjects=tuple(process.name for process in waiting),
         )
@@ -58,10 +59,11 @@ def _sleeps(unit: Spec) -> bool:
 RULE = Rule(
     code='CC704',
     slug='sim-time-without-clock',
-    severity=Severity.WARNING,
+    severity=Severity.NOTE,
     title='Simulated time that nobody provides',
     what='The launch file sets `use_sim_time` for a node with a timer, a rate or a `sleep_for`; '
-    'all code of the system is in sight, and nothing in it publishes `/clock`.',
+    'all code of the system is in sight, and nothing in it publishes `/clock`. A note, as the '
+    'simulator, or the bag that is played, is often started apart.',
     why='A node with simulated time takes its time from `/clock` and starts at zero; without '
     'messages there the time stands still, and timers, rates and `sleep_for` of the node never '
     'wake. Source: design.ros2.org, "Clock and Time"; rclpy 7.1.6, `time_source.py`.',
