@@ -16,7 +16,7 @@ from ros2cc_extract.cli.main import main
 
 HERE = Path(__file__).parent
 LAUNCH = HERE / 'launch'
-FOUND = re.compile(r'^(\S+?):(\d+):\d+: (?:error|warning) (CC\d+): ', re.MULTILINE)
+FOUND = re.compile(r'^(\S+?):(\d+):\d+: (?:error|warning|note(?= CC704)) (CC\d+): ', re.MULTILINE)
 MARK = re.compile(r'^(?:#|<!--)\s*(.*?)(?:\s*-->)?$')
 NO_FINDING = ('nothing', 'observed: ')
 

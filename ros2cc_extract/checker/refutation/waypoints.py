@@ -100,8 +100,9 @@ class _Search:
 
     def from_state(self, state: State, formulas: Sequence[str]) -> Sequence[Outcome]:
         """Answer queries as if the model began in ``state``."""
-        network = _beginning_in(state, self._model.network)
         asked = [self._model.elaboration.query(formula, _UNNAMED) for formula in formulas]
+        # Behind them: a query brings the functions that it alone calls.
+        network = _beginning_in(state, self._model.network)
         result: SearchResult = self._engine.search(
             network,
             asked,

@@ -15,7 +15,7 @@ def generate_launch_description():
     )
 
 
-# CC704 launch/settings_bad.launch.py: Node(
 # CC706 launch/settings_bad.launch.py: Node(
 # CC706 launch/settings_bad.launch.py: viewer.py
 # CC703 programs/viewer.py: self.on_image, 10
+# CC704 launch/settings_bad.launch.py: Node(

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Hit, Rule
-from ros2cc_extract.spec.model import EntityKind
+from ros2cc_extract.spec.model import EntityKind, Spec
 from ros2cc_extract.spec.node_graph import EndpointKind
 from ros2cc_extract.spec.system.model import Process, System
 
@@ -25,7 +25,8 @@ def find(system: System) -> Iterator[Hit]:
         yield Hit(
             place=waiting[0].launched.source,
             message=f'{names}: {PARAMETER} is true, and nobody in the system publishes {_CLOCK}: '
-            'their time stands still, and their timers and sleeps never end',
+            'their time stands still, and their timers and sleeps do not end until one does, as a '
+            'simulator or a bag that is started apart',
             help=f'start a node that publishes {_CLOCK}, or leave {PARAMETER} false',
             subjects=tuple(process.name for process in waiting),
         )
@@ -43,22 +44,26 @@ def _is_simulated(process: Process) -> bool:
 
 def _needs_time(process: Process) -> bool:
     """Whether anything waits for it; nothing is lost for one that only takes messages."""
-    callbacks = [each for unit in process.units for each in unit.callbacks]
-    waits = [block for each in callbacks for block in each.blocking]
-    waits += [
-        block for unit in process.units for each in unit.activities for block in each.blocking
-    ]
-    has_timer = any(each.entity is EntityKind.TIMER for each in callbacks)
-    return has_timer or any(wait.call in _SLEEPS for wait in waits)
+    return any(_has_timer(unit) or _sleeps(unit) for unit in process.units)
+
+
+def _has_timer(unit: Spec) -> bool:
+    return any(callback.entity is EntityKind.TIMER for callback in unit.callbacks)
+
+
+def _sleeps(unit: Spec) -> bool:
+    doers = (*(each.blocking for each in unit.callbacks), *(a.blocking for a in unit.activities))
+    return any(wait.call in _SLEEPS for waits in doers for wait in waits)
 
 
 RULE = Rule(
     code='CC704',
     slug='sim-time-without-clock',
-    severity=Severity.WARNING,
+    severity=Severity.NOTE,
     title='Simulated time that nobody provides',
     what='The launch file sets `use_sim_time` for a node with a timer, a rate or a `sleep_for`; '
-    'all code of the system is known, and nothing in it publishes `/clock`.',
+    'all code of the system is known, and nothing in it publishes `/clock`. A note, as the '
+    'simulator, or the bag that is played, is often started apart.',
     why='A node with simulated time takes its time from `/clock` and starts at zero; without '
     'messages there the time stands still, and timers, rates and `sleep_for` of the node never '
     'wake. Source: design.ros2.org, "Clock and Time"; rclpy 7.1.6, `time_source.py`.',
