@@ -25,8 +25,8 @@ def find(system: System) -> Iterator[Hit]:
         yield Hit(
             place=waiting[0].launched.source,
             message=f'{names}: {PARAMETER} is true, and nobody in the system publishes {_CLOCK}: '
-            'their time stands still, and their timers and sleeps do not end until something does, '
-            'as a simulator or a bag that is started apart',
+            'their time stands still, and their timers and sleeps do not end until something '
+            'does, as a simulator or a bag that is started apart',
             help=f'start a node that publishes {_CLOCK}, or leave {PARAMETER} false',
             subjects=tuple(process.name for process in waiting),
         )
