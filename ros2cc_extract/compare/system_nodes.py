@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TypeVar
 
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.identifiers import mend
 from ros2cc_extract.spec.system.model import Process, System, SystemNode
 from ros2cc_extract.spec.system.names import full_name
+
+Item = TypeVar('Item')
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,21 +37,34 @@ def match_nodes(left: System, right: System) -> NodeMatching:
 
     A name that the launch file gives to a process whose code is not available counts.
     """
-    rest_left, rest_right = list(placed(left)), list(placed(right))
-    pairs: list[tuple[Placed, Placed]] = []
-    for identity in (_full_name, _own_name, _last_name, _ends):
+    identities = (_full_name, _own_name, _last_name, _ends)
+    pairs, rest_left, rest_right = paired(placed(left), placed(right), identities)
+    order = {id(each.node): number for number, each in enumerate(placed(left))}
+    pairs.sort(key=lambda pair: order.get(id(pair[0].node), 0))
+    return NodeMatching(tuple(pairs), tuple(rest_left), tuple(rest_right))
+
+
+def paired(
+    left: Iterable[Item], right: Iterable[Item], identities: Sequence[Callable[[Item], object]]
+) -> tuple[list[tuple[Item, Item]], list[Item], list[Item]]:
+    """
+    Pair what is alike by ever weaker identities, and give the rest of each side.
+
+    By any but the first, only what nothing else of either side is alike with.
+    """
+    rest_left, rest_right = list(left), list(right)
+    pairs: list[tuple[Item, Item]] = []
+    for number, identity in enumerate(identities):
         for mine in list(rest_left):
             sought = identity(mine)
             fitting = [each for each in rest_right if identity(each) == sought]
             others = [each for each in rest_left if identity(each) == sought]
-            is_sure = identity is _full_name or len(fitting) == len(others) == 1
+            is_sure = number == 0 or len(fitting) == len(others) == 1
             if sought is not None and fitting and is_sure:
                 pairs.append((mine, fitting[0]))
                 rest_left.remove(mine)
                 rest_right.remove(fitting[0])
-    order = {id(each.node): number for number, each in enumerate(placed(left))}
-    pairs.sort(key=lambda pair: order.get(id(pair[0].node), 0))
-    return NodeMatching(tuple(pairs), tuple(rest_left), tuple(rest_right))
+    return pairs, rest_left, rest_right
 
 
 def placed(system: System) -> Iterator[Placed]:
@@ -71,9 +87,6 @@ def _expected(process: Process) -> SystemNode:
         open=process.outside,
         source=launched.source,
     )
-
-
-Identity = Callable[[Placed], object]
 
 
 def _full_name(each: Placed) -> object:

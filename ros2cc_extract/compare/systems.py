@@ -7,11 +7,11 @@ a difference is marked, as in ``merge.py``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 from ros2cc_extract.compare.merge import NOT_KNOWN, Difference, Kind
-from ros2cc_extract.compare.system_nodes import NodeMatching, Placed, match_nodes
+from ros2cc_extract.compare.system_nodes import NodeMatching, Placed, match_nodes, paired
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.node_graph import Qos
 from ros2cc_extract.spec.system.launched import RECORDED
@@ -53,22 +53,8 @@ def match_endpoints(
     By ever weaker identities: name, what the code writes, the place of creation, the last part of
     the name, the type where there is one of it.
     """
-    rest_left, rest_right = list(left.endpoints), list(right.endpoints)
-    pairs: list[Pair] = []
-    for identity in (_by_name, _by_words, _by_place, _by_last_part, _by_type):
-        for mine in list(rest_left):
-            sought = identity(mine)
-            fitting = [each for each in rest_right if identity(each) == sought]
-            others = [each for each in rest_left if identity(each) == sought]
-            is_sure = identity is _by_name or len(fitting) == len(others) == 1
-            if sought is not None and fitting and is_sure:
-                pairs.append((mine, fitting[0]))
-                rest_left.remove(mine)
-                rest_right.remove(fitting[0])
-    return pairs, rest_left, rest_right
-
-
-Identity = Callable[[SystemEndpoint], object]
+    identities = (_by_name, _by_words, _by_place, _by_last_part, _by_type)
+    return paired(left.endpoints, right.endpoints, identities)
 
 
 def _by_name(end: SystemEndpoint) -> object:

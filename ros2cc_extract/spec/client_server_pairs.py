@@ -6,7 +6,8 @@ Both are found by name, since that is all a specification has; a remapping is no
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeVar
 
 from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Needs
 from ros2cc_extract.spec.model import Callback, EntityKind
@@ -17,6 +18,7 @@ SERVER_KINDS = {
 }
 """What answers each kind of client."""
 _NOBODY = frozenset((OUTSIDE, TIME))
+_Part = TypeVar('_Part')
 
 
 def is_client(callback: Callback) -> bool:
@@ -45,6 +47,17 @@ def servers_of(client: Callback, callbacks: Iterable[Callback]) -> list[Callback
 def client_before(done: Callback, callbacks: Iterable[Callback]) -> Callback | None:
     """The one client of its node that takes the answer for which ``done`` is a done-callback."""
     return _the_one(_clients_before(done, callbacks))
+
+
+def reachable(start: _Part, ahead: Mapping[_Part, set[_Part]]) -> set[_Part]:
+    """Those that ``start`` needs, and that these need in turn; itself only in a cycle."""
+    found: set[_Part] = set()
+    left = [start]
+    while left:
+        new = ahead.get(left.pop(), set()) - found
+        found |= new
+        left += new
+    return found
 
 
 def asked_by(block: Blocking, callbacks: Iterable[Callback]) -> tuple[Callback, ...]:

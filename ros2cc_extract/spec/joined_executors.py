@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.light_dataclasses import dataclass
-from ros2cc_extract.spec.client_server_pairs import asked_by, servers_of
+from ros2cc_extract.spec.client_server_pairs import asked_by, reachable, servers_of
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import (
     Activity,
@@ -126,22 +126,12 @@ def _wait_for_each_other(spec: Spec, part_of: Mapping[str, _Part]) -> bool:
     for one, other in _needs(spec, part_of):
         ahead.setdefault(one, set()).add(other)
     executors = [part for part in ahead if isinstance(part, int)]
-    reached = {part: _reached(part, ahead) for part in executors}
+    reached = {part: reachable(part, ahead) for part in executors}
     return any(
         one != other and other in reached[one] and one in reached[other]
         for one in executors
         for other in executors
     )
-
-
-def _reached(part: _Part, ahead: Mapping[_Part, set[_Part]]) -> set[_Part]:
-    found: set[_Part] = set()
-    left = [part]
-    while left:
-        new = ahead.get(left.pop(), set()) - found
-        found |= new
-        left += new
-    return found
 
 
 def _needs(spec: Spec, part_of: Mapping[str, _Part]) -> Iterator[tuple[_Part, _Part]]:

@@ -9,6 +9,7 @@ from typing import Any
 from ros2cc_extract.extract.live.hang_analysis.frame_waits import Kind, Wait
 from ros2cc_extract.extract.live.hang_analysis.samples import Look
 from ros2cc_extract.extract.live.hang_analysis.wait_for_graph import Explanation, Standing, Verdict
+from ros2cc_extract.spec.client_server_pairs import reachable
 
 MEANS = {
     Verdict.DEADLOCK: 'nothing is left that could end a wait',
@@ -107,10 +108,10 @@ def shared_deadlocks(explanations: Sequence[Explanation]) -> Iterator[str]:
     waits = {each.process: list(_stuck_on_others(each)) for each in explanations}
     asked = {process: {other for other, _ in found} for process, found in waits.items()}
     titles = {each.process: title(each) for each in explanations}
-    left = sorted(process for process in asked if process in _reached(process, asked))
+    left = sorted(process for process in asked if process in reachable(process, asked))
     while left:
-        members = [each for each in left if left[0] in _reached(each, asked)]
-        members = [each for each in members if each in _reached(left[0], asked)]
+        members = [each for each in left if left[0] in reachable(each, asked)]
+        members = [each for each in members if each in reachable(left[0], asked)]
         left = [each for each in left if each not in members]
         waiting = '; '.join(
             f'{titles[process]} waits for {what} of process {other}'
@@ -126,16 +127,6 @@ def _stuck_on_others(explanation: Explanation) -> Iterator[tuple[int, str]]:
         if not each.can_end:
             what = explanation.look.entities.get(each.wait.resource or 0)
             yield from ((process, str(what.key if what else '')) for process in each.asked)
-
-
-def _reached(process: int, asked: dict[int, set[int]]) -> set[int]:
-    """What is waited for by a process, and by those that it waits for."""
-    found: set[int] = set()
-    more = set(asked.get(process, ()))
-    while more:
-        found |= more
-        more = {other for each in more for other in asked.get(each, ())} - found
-    return found
 
 
 def as_json(explanation: Explanation) -> str:

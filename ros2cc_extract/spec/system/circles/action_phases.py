@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from ros2cc_extract.spec.client_server_pairs import reachable
 from ros2cc_extract.spec.effects import Blocking, Waker
 from ros2cc_extract.spec.joined_executors import enders_of
 from ros2cc_extract.spec.model import (
@@ -146,19 +147,9 @@ def needs_itself(whole: Spec) -> str | None:
     }
     for callback in whole.callbacks:
         is_one = callback.group.startswith(_ONE_GOAL.format(''))
-        if is_one and callback.name in _reached(callback.name, ahead):
+        if is_one and callback.name in reachable(callback.name, ahead):
             return str(callback.key)
     return None
-
-
-def _reached(name: str, ahead: Mapping[str, set[str]]) -> set[str]:
-    found: set[str] = set()
-    left = [name]
-    while left:
-        new = ahead.get(left.pop(), set()) - found
-        found |= new
-        left += new
-    return found
 
 
 def _clients(callback: Callback, name: str) -> list[Callback]:

@@ -17,7 +17,7 @@ from ros2cc_extract.errors import SpecFormatError
 from ros2cc_extract.identity_memo import once
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.client_server_pairs import asked_by, servers_of
+from ros2cc_extract.spec.client_server_pairs import asked_by, reachable, servers_of
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.joined_executors import KINDS, Joined, joined, why_not_joined
 from ros2cc_extract.spec.model import (
@@ -120,7 +120,7 @@ def _circles(
         name: {other for key, by in offered.items() if key in keys for other in by}
         for name, keys in needed.items()
     }
-    reached = {name: _reached(name, ahead) for name in ahead}
+    reached = {name: reachable(name, ahead) for name in ahead}
     done: set[str] = set()
     for process in processes:
         mine = [
@@ -131,16 +131,6 @@ def _circles(
         if len(mine) > 1 and process.name not in done:
             done |= {each.name for each in mine}
             yield mine
-
-
-def _reached(name: str, ahead: Mapping[str, set[str]]) -> set[str]:
-    found: set[str] = set()
-    left = [name]
-    while left:
-        new = ahead.get(left.pop(), set()) - found
-        found |= new
-        left += new
-    return found
 
 
 @dataclass(frozen=True)
