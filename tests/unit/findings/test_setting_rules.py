@@ -337,15 +337,35 @@ def test_those_that_ask_for_too_much_together_are_named_together() -> None:
 @pytest.mark.parametrize(
     'callbacks',
     [
-        (timer('slow', period_s=0.1, blocking=sleeps(0.2)), subscription('on_stop')),
         (timer('busy', period_s=0.1, blocking=sleeps(0.05)), timer('beat', period_s=0.05)),
         (timer('slow', period_s=0.1, blocking=sleeps(1.0)), timer('beat', period_s=0.05)),
     ],
-    ids=['nobody is due often', 'there is time', 'CC201 tells it'],
+    ids=['there is time', 'CC201 tells it'],
 )
 def test_else_no_overload_is_told(callbacks: tuple[Callback, ...]) -> None:
     found_codes = [finding[:5] for finding in found(unit(ONE_THREAD, *callbacks))]
     assert 'CC208' not in found_codes
+
+
+@pytest.mark.parametrize('is_sure', [True, False], ids=['in each run', 'behind a branch'])
+def test_a_timer_that_alone_takes_longer_than_its_period_is_a_note(is_sure: bool) -> None:
+    slept = tuple(replace(sleep, conditional=not is_sure) for sleep in sleeps(0.2))
+    spec = unit(ONE_THREAD, timer('slow', period_s=0.1, blocking=slept), subscription('on_stop'))
+    finding = only(spec, 'CC208')
+    assert (finding.severity, finding.message) == (
+        Severity.NOTE,
+        'slow takes at least 0.2 s and is due every 0.1 s, more than the only thread of the '
+        'SingleThreadedExecutor has time for: slow runs about 50% as often as due'
+        + ('' if is_sure else '; so it is while its runs come to this sleep'),
+    )
+
+
+def test_a_short_sleep_is_long_where_a_timer_misses_five_runs() -> None:
+    slow = subscription('on_image', blocking=sleeps(0.2))
+    assert only(unit(ONE_THREAD, slow, timer('fast', period_s=0.04)), 'CC201').message.startswith(
+        'on_image sleeps 0.2 s and holds the only thread'
+    )
+    assert found(unit(ONE_THREAD, slow, timer('fast', period_s=0.05))) == []
 
 
 def test_a_timer_created_later_is_the_victim_and_never_an_earlier_one() -> None:

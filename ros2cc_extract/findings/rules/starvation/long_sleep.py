@@ -29,7 +29,7 @@ LONG_SLEEP_S = 1.0
 """From here on a sleep counts as long: our choice."""
 MISSED = 5
 """So many runs that a timer misses make a shorter sleep long too, from ``SHORTEST_S`` on."""
-SHORTEST_S = 0.5
+SHORTEST_S = 0.1
 LISTED = 5
 """How many of the other sleeps are shown."""
 
@@ -244,8 +244,8 @@ RULE = Rule(
     severity=Severity.WARNING,
     title='Long sleep in a callback that others wait for',
     what='A callback sleeps for a second or longer while it holds the only thread, or the '
-    'default group of its node; or for half a second or longer where a timer there misses five '
-    'runs meanwhile. Everything else there waits, also the parameter services: `ros2 param` '
+    'default group of its node; or for a tenth of a second or longer where a timer there misses '
+    'five runs meanwhile. Everything else there waits, also the parameter services: `ros2 param` '
     'hangs. The same holds for a lock that is held over a long sleep, or over a loop that sleeps '
     'in each iteration, where other callbacks take the lock: an execute callback that holds it '
     'during its whole run delays the cancel request. A wait with a time-out counts too: it lasts '

@@ -2,35 +2,69 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.wording import made_at, shown
 from ros2cc_extract.findings.rules.starvation import group_overload, long_sleep
 from ros2cc_extract.findings.rules.starvation.group_overload import asks, place_of
-from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.model import Callback, Spec
 from ros2cc_extract.verify.results.load import Load, LoadKind, Serving, demands_of, load_of
-from ros2cc_extract.verify.results.rates import Demand
+from ros2cc_extract.verify.results.rates import Demand, least_slept_s
 
 MOST_RUNS = 0.9
 """A callback with this share of its runs, or more, is served well enough: our choice."""
+_LATE = (LoadKind.DEGRADED, LoadKind.STARVED)
 
 
 def find(context: Context) -> Iterator[Hit]:
     """One finding for those that together ask for too much, unless another rule reports them."""
-    demands = demands_of(context.unit)
-    victims: dict[tuple[str, ...], list[tuple[Callback, Load]]] = {}
-    for callback in context.written:
-        load = load_of(context.unit, callback, demands)
-        if load.kind is LoadKind.DEGRADED and load.runs is not None and load.runs <= MOST_RUNS:
-            victims.setdefault(_heaviest(load.busy, demands), []).append((callback, load))
     reported = {name for hit in _reported_hits(context) for name in hit.subjects}
+    for hit in _hits(context, context.unit, (LoadKind.DEGRADED,)):
+        if reported.isdisjoint(hit.subjects):
+            reported |= set(hit.subjects)
+            yield hit
+    for hit in _hits(context, _with_branches(context.unit), _LATE):
+        if reported.isdisjoint(hit.subjects):
+            often = hit.message + '; so it is while its runs come to this sleep'
+            yield replace(hit, message=often, severity=Severity.NOTE)
+
+
+def _hits(context: Context, unit: Spec, late: Collection[LoadKind]) -> Iterator[Hit]:
+    demands = demands_of(unit)
+    victims: dict[tuple[str, ...], list[tuple[Callback, Load]]] = {}
+    written = {callback.name for callback in context.written}
+    for callback in unit.callbacks:
+        load = load_of(unit, callback, demands)
+        is_late = load.kind in late and load.runs is not None and load.runs <= MOST_RUNS
+        if callback.name in written and is_late:
+            victims.setdefault(_heaviest(load.busy, demands), []).append((callback, load))
+    by_name = {callback.name: callback for callback in unit.callbacks}
     for names, kept in victims.items():
-        busy = [context.by_name[name] for name in names]
         others = [(callback, load) for callback, load in kept if callback.name not in names]
-        if others and reported.isdisjoint(names):
-            yield _hit(busy, others, context)
+        hit = _hit([by_name[name] for name in names], others or kept, unit)
+        yield hit if others else replace(hit, severity=Severity.NOTE)
+
+
+def _with_branches(unit: Spec) -> Spec:
+    """The unit as it is while each callback comes to the longest sleep that a branch may skip."""
+    return replace(unit, callbacks=tuple(map(_as_if_taken, unit.callbacks)))
+
+
+def _as_if_taken(callback: Callback) -> Callback:
+    skipped = [b for b in callback.blocking if b.conditional]
+    longest = max(skipped, key=lambda block: least_slept_s([_taken(block)]), default=None)
+    if longest is None:
+        return callback
+    blocking = (_taken(block) if block is longest else block for block in callback.blocking)
+    return replace(callback, blocking=tuple(blocking))
+
+
+def _taken(block: Blocking) -> Blocking:
+    return replace(block, conditional=False)
 
 
 def _reported_hits(context: Context) -> Iterator[Hit]:
@@ -45,29 +79,27 @@ def _heaviest(busy: Sequence[str], demands: Mapping[str, Demand]) -> tuple[str, 
     return tuple(busy) if worst is None else (worst,)
 
 
-def _hit(
-    busy: Sequence[Callback], victims: Sequence[tuple[Callback, Load]], context: Context
-) -> Hit:
+def _hit(busy: Sequence[Callback], victims: Sequence[tuple[Callback, Load]], unit: Spec) -> Hit:
     callbacks = [callback for callback, _ in victims]
     load = min((load for _, load in victims), key=lambda load: load.runs or 0.0)
     run = 'runs' if len(victims) == 1 else 'run'
     least = 'about' if len(victims) == 1 else 'down to about'
     return Hit(
         place=place_of(busy[-1]),
-        message=f'{shown(busy)} {asks(busy, load, context.unit)}, more than '
-        f'{_where(load, busy[-1], context)} has time for: {shown(callbacks)} {run} {least} '
+        message=f'{shown(busy)} {asks(busy, load, unit)}, more than '
+        f'{_where(load, busy[-1], unit)} has time for: {shown(callbacks)} {run} {least} '
         f'{load.runs:.0%} as often as due',
         help='give it a period longer than its work, or a group of its own on a '
         'MultiThreadedExecutor',
         subjects=tuple(callback.name for callback in busy),
-        related=tuple(made_at(*busy, *callbacks)),
+        related=tuple(made_at(*dict.fromkeys((*busy, *callbacks)))),
     )
 
 
-def _where(load: Load, busy: Callback, context: Context) -> str:
+def _where(load: Load, busy: Callback, unit: Spec) -> str:
     if load.serving is Serving.LEFTOVER:
-        return context.unit.group_of(busy).display_name
-    executor = context.unit.executor
+        return unit.group_of(busy).display_name
+    executor = unit.executor
     if load.serving is Serving.POOL:
         return f'a pool of {len(executor.threads)} threads'
     return f'the only thread of the {executor.kind}'
@@ -83,7 +115,8 @@ RULE = Rule(
     'served there run less often than they are due: messages pile up and get lost, timers miss '
     'periods. Periods and durations are those of `verify --profile rclpy`: written by hand, '
     'measured in a run, or read from timers and sleeps in the source, which only make it worse '
-    'where more is done. Sleeps behind a branch do not count. A single long sleep is CC201, a '
+    'where more is done. A sleep that a branch may skip gives a note: so it is while the runs '
+    'come to it; so does one by which nobody else is late. A single long sleep is CC201, a '
     'callback that never runs CC202.',
     why='One thread serves in turns all that is ready: the slowest sets the pace. Source: rclpy '
     '7.1.6 and 9.1.2, `executors.py` (`_wait_for_ready_callbacks`). Measured on both: a timer '
