@@ -218,6 +218,8 @@ class Access:
         name of its own.
     :param admits: true for a read of a goal callback because of which it turns goals down.
     :param later: true for the use of an object where something was called since it was tested.
+    :param joins: of a write, the attribute of the same object that was written before it and
+        belongs with it; threads may be switched between the two.
     """
 
     name: str
@@ -239,6 +241,7 @@ class Access:
     compared: bool = False
     admits: bool = False
     later: bool = False
+    joins: str | None = None
     chain: tuple[Place, ...] = ()
 
 

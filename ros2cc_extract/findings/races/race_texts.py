@@ -26,9 +26,8 @@ def describe(race: Race) -> str:
         f'the size of {it} meanwhile: Python raises RuntimeError in the loop',
         RaceKind.CLEARED_IN_USE: f'{first} tests {names} and then uses {it}, and {others} may set '
         f'{it} to None in between: then the use raises an exception',
-        RaceKind.TORN: f'{first} publishes {names} while {others} may change {it} piece by '
-        'piece: the '
-        'message is half old and half new',
+        RaceKind.TORN: f'{first} {_takes(race)} {names} while {others} may change {it} piece by '
+        f'piece: {"the message" if _is_sent(race) else it} is half old and half new',
         RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
         'at the same time: one change can get lost',
         RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '
@@ -37,6 +36,18 @@ def describe(race: Race) -> str:
         f'{others} may change {it} in between: what was read may no longer hold',
         RaceKind.WHOLE_UPDATE: f'{first} updates {names} from {old} without a lock, and {others} '
         f'may write {it} at the same time: {IN_ONE_PIECE}',
+        RaceKind.TORN_STATE: f'{first} reads {names}, which belong together, and {others} may '
+        'have written only some of them by then: new values stand beside old ones',
         RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {names} at the same time: the '
         'last one wins',
     }[race.kind]
+
+
+def _is_sent(race: Race) -> bool:
+    """Whether it is a message that goes out."""
+    sent = {act.source for act in race.first.doer.publishes}
+    return race.first.place in sent
+
+
+def _takes(race: Race) -> str:
+    return 'publishes' if _is_sent(race) else 'uses all of'

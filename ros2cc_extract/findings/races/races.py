@@ -25,11 +25,19 @@ from ros2cc_extract.findings.races.critical_sections import (
     keep_apart,
     kept_between,
     read_acted_on,
-    read_for,
     reads_of,
+    waits,
     writes_of,
 )
 from ros2cc_extract.findings.races.flag_locks import as_shared, shared_by
+from ros2cc_extract.findings.races.harms import (
+    Use,
+    loops_changed,
+    torn_messages,
+    torn_states,
+    uses_cleared,
+    written_before,
+)
 from ros2cc_extract.findings.races.lifecycle import comes_before
 from ros2cc_extract.findings.races.shared_objects import node_classes, shared_part
 from ros2cc_extract.findings.waits.concurrent_threads import (
@@ -43,7 +51,7 @@ from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.identity_memo import once
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Access, Act
+from ros2cc_extract.spec.effects import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Act
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.program_order import steps
 from ros2cc_extract.verify.results.evidence import Evidence
@@ -59,26 +67,18 @@ class RaceKind(Enum):
     CHECK_THEN_ACT = 'check then act'
     CHECK_THEN_CHANGE = 'check then change'
     WHOLE_UPDATE = 'update in one piece'
+    TORN_STATE = 'torn state'
     LAST_WRITE_WINS = 'last write wins'
 
 
-_OWN_HARM = (RaceKind.CHANGED_IN_LOOP, RaceKind.CLEARED_IN_USE, RaceKind.TORN)
+_OWN_HARM = (
+    RaceKind.CHANGED_IN_LOOP,
+    RaceKind.CLEARED_IN_USE,
+    RaceKind.TORN,
+    RaceKind.TORN_STATE,
+)
 """What not every other write does."""
 LOSING = (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT, RaceKind.WHOLE_UPDATE)
-
-
-@dataclass(frozen=True)
-class Use:
-    """A write of an attribute by a callback or a thread, or a loop over it."""
-
-    doer: Doer
-    access: Access
-
-    @property
-    def place(self) -> Place:
-        """Where it stands; the callback where the line is not known."""
-        doer = self.doer
-        return self.access.source or doer.defined or doer.source or Place(doer.name)
 
 
 @dataclass(frozen=True)
@@ -118,6 +118,16 @@ class Race:
         """The attributes and the callbacks, which identify the race."""
         callbacks = (self.first, *self.others)
         return (*self.names, *dict.fromkeys(use.doer.name for use in callbacks))
+
+    @property
+    def is_over_wait(self) -> bool:
+        """Whether the other waits between its writes of attributes that belong together."""
+        return any(
+            waits(first, last, use.doer)
+            for use in self.others
+            for last in use.doer.writes
+            if last.name in self.names and (first := written_before(last, use.doer)) is not None
+        )
 
     def related(self) -> tuple[Remark, ...]:
         """The other writes; one function of several entities is listed once."""
@@ -232,9 +242,10 @@ def _of_two_alike(thread: Activity) -> Iterator[_Conflict]:
 
 def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
     written = {access.name for access in one.writes} & {access.name for access in other.writes}
-    others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in _loops(one, other)]
+    others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in loops_changed(one, other)]
     others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(one, other)]
-    others += [(RaceKind.TORN, *pair) for pair in _torn(one, other)]
+    others += [(RaceKind.TORN, *pair) for pair in torn_messages(one, other)]
+    others += [(RaceKind.TORN_STATE, *pair) for pair in torn_states(one, other)]
     for name in sorted(written | {use.access.name for _, use, _ in others}):
         pairs = [
             (Use(one, a), Use(other, b))
@@ -261,6 +272,8 @@ def _over_awaits(one: Callback, other: Callback, context: Context) -> Iterator[_
             for first, second in pairs:
                 if first.access.name == second.access.name and _is_stale(first, second):
                     yield _Conflict(RaceKind.CHECK_THEN_ACT, first, second, None)
+            for reader, writer in torn_states(callback, rival, pauses=callback):
+                yield _Conflict(RaceKind.TORN_STATE, reader, writer, None)
 
 
 def _spins(doer: Doer) -> tuple[Act, ...]:
@@ -278,7 +291,7 @@ def _over_spins(server: Doer, callback: Doer) -> Iterator[_Conflict]:
         if not is_other_item(a, b) and not _changes_nothing(Use(server, a), Use(callback, b))
     ]
     found = [pair for pair in pairs if _is_read_before_spin(*pair[1:])]
-    found += [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in _loops(server, callback)]
+    found += [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in loops_changed(server, callback)]
     cleared = [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(server, callback)]
     found += [each for each in cleared if begun < steps(each[1].access)]
     for kind, first, second in found:
@@ -304,66 +317,6 @@ def _is_stale(first: Use, second: Use) -> bool:
     awaits = (b for b in doer.blocking if kind_of(b) is WaitKind.AWAIT)
     over_await = any(steps(read) < steps(block) < steps(write) for block in awaits)
     return over_await and not keep_apart(kept_between(read, write, doer), second.access.locks)
-
-
-def _torn(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
-    """Objects that one publishes and the other changes piece by piece, without a common lock."""
-    for sender, changer in ((one, other), (other, one)):
-        yield from (
-            (Use(sender, sent), Use(changer, change))
-            for sent in sender.pieces
-            for change in changer.pieces
-            if sent.name == change.name
-            and change.update
-            and not sent.update
-            and _may_meet(Use(sender, sent), Use(changer, change))
-        )
-
-
-def _may_meet(first: Use, second: Use) -> bool:
-    """Whether no common lock keeps them apart, and neither is over before the other begins."""
-    return not (
-        keep_apart(first.access.locks, second.access.locks)
-        or comes_before(second.access, second.doer, first.doer)
-        or comes_before(first.access, first.doer, second.doer)
-    )
-
-
-# Their loops notice a change of size; those over a list see more or less, and raise nothing.
-_NOTICING = frozenset({'dict', 'set', 'deque'})
-
-
-def _loops(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
-    """Loops of one over a collection that the other changes in place, without a common lock."""
-    for looper, changer in ((one, other), (other, one)):
-        for read in looper.reads:
-            if read.iterates in _NOTICING:
-                yield from (
-                    (Use(looper, read), Use(changer, write))
-                    for write in changer.writes
-                    if write.name == read.name
-                    and write.in_place
-                    and not write.keeps_size
-                    and _may_meet(Use(looper, read), Use(changer, write))
-                )
-
-
-def uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
-    """Objects that one tests and then uses, and the other sets to ``None`` in between."""
-    for user, clearer in ((one, other), (other, one)):
-        cleared = writes_of(clearer)
-        for use in (*user.reads, *(write for write in user.writes if write.in_place)):
-            clears = [write for write in cleared.get(use.name, ()) if write.clears]
-            tested = read_for(use, user) if use.rests and clears else None
-            if tested is not None:
-                kept = kept_between(tested, use, user)
-                yield from (
-                    (Use(user, use), Use(clearer, write))
-                    for write in clears
-                    if not keep_apart(kept, write.locks)
-                    and not comes_before(use, user, clearer)
-                    and not comes_before(write, clearer, user)
-                )
 
 
 def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:

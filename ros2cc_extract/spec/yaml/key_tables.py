@@ -144,6 +144,7 @@ ACCESS = record(
                 ('compared', 'compared', FLAG),
                 ('admits', 'admits', FLAG),
                 ('later', 'later', FLAG),
+                ('joins', 'joins', optional(TEXT)),
                 ('locks', 'locks', listing(TEXT)),
                 _SOURCE,
                 _CHAIN,

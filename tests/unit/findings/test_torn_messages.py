@@ -8,7 +8,7 @@ import pytest
 from finding_units import DEFAULT, at, exclusive, found, threads, timer, unit
 
 from ros2cc_extract.findings.collect import findings_of
-from ros2cc_extract.spec.effects import Access
+from ros2cc_extract.spec.effects import Access, Act
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Waker
 
 STATE = 'Arm.state'
@@ -16,7 +16,9 @@ STATE = 'Arm.state'
 
 def sends(*locks: str, name: str = STATE, node: str = 'arm') -> Callback:
     sent = Access(name=name, source=at(20), locks=locks)
-    return timer('send', f'{node}_default', node=node, cls='Arm', pieces=(sent,))
+    published = (Act(name='state', source=sent.source),)
+    facts = {'node': node, 'cls': 'Arm', 'pieces': (sent,), 'publishes': published}
+    return timer('send', f'{node}_default', **facts)
 
 
 def changes(*locks: str, name: str = STATE) -> tuple[Access, ...]:
@@ -93,3 +95,12 @@ def test_two_nodes_of_one_class_have_a_message_each() -> None:
 
     assert codes(STATE) == []
     assert codes('Board.state') == TORN
+
+
+def test_an_array_that_is_read_whole_is_no_message() -> None:
+    made = replace(unit(threads(1), replace(sends(), publishes=())), activities=(thread(),))
+    (finding,) = (f for f in findings_of([made], []) if f.code == 'CC301')
+    assert finding.message == (
+        'send uses all of Arm.state while thread fill may change it piece by piece: it is half '
+        'old and half new'
+    )

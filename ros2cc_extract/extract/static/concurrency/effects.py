@@ -11,6 +11,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     flag_locks,
     kept_threads,
     lost_notifications,
+    torn_state,
     torn_updates,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import (
@@ -177,6 +178,7 @@ class Effects(Waits):
             lowers=is_stored and reading.stored != NONE and _is_false(reading.stored),
             found=reading.found_of(name, self.world.path) if is_stored else None,
             constant=is_stored and rests and isinstance(reading.stored, Const),
+            joins=torn_state.written_with(self.world, name) if is_stored else None,
             chain=self.world.chain[1:],
         )
         accesses = effects.reads if is_read else effects.writes

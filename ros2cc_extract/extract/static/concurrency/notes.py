@@ -7,14 +7,15 @@ The interpreter calls these hooks, see ``observer.py``; each module behind them 
 from __future__ import annotations
 
 import ast
-from collections.abc import Sequence, Set
-from contextlib import AbstractContextManager
+from collections.abc import Iterator, Sequence, Set
+from contextlib import AbstractContextManager, contextmanager
 
 from ros2cc_extract.extract.static.concurrency.accesses import (
     atomic_updates,
     flag_locks,
     kept_threads,
     lost_notifications,
+    torn_state,
     torn_updates,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
@@ -49,7 +50,13 @@ class Notes(Effects):
     ) -> AbstractContextManager[None]:
         """While the statement is followed, its write is known to be in one piece, if it is."""
         counted_tests.note_step(self, node, frame)
-        return atomic_updates.noted(self, node, frame)
+        return self._storing(node, frame)
+
+    @contextmanager
+    def _storing(self, node: ast.Assign | ast.AugAssign, frame: Frame) -> Iterator[None]:
+        taken = torn_state.noted(self.world.reading, node, frame)
+        with taken, atomic_updates.noted(self, node, frame):
+            yield
 
     def note_branch(
         self, node: ast.If, found: Set[str], place: Place, frame: Frame, *, is_first: bool

@@ -27,6 +27,7 @@ def hit_of(race: Race, message: str = '', help_text: str = '') -> Hit:
     is_free = race.is_outside_groups or race.has_threads
     is_less = race.kind in (RaceKind.CHECK_THEN_CHANGE, RaceKind.WHOLE_UPDATE)
     is_less = is_less or (race.kind is RaceKind.CHECK_THEN_ACT and race.is_flag)
+    is_less = is_less or (race.kind is RaceKind.TORN_STATE and not race.is_over_wait)
     return Hit(
         place=race.first.place,
         message=describe(race) + message,
@@ -54,7 +55,9 @@ RULE = Rule(
     'a thread is still the same one, a copy (`list(d.items())`) is not. A message that is kept '
     'and changed piece by piece (`self.msg.position[k] = x`, two fields one after the other) '
     'while another callback publishes it goes out half old and half new; a message that is '
-    'created each time, or changed in one step, does not. Threads that the program starts, timer '
+    'created each time, or changed in one step, does not. Attributes that one callback writes one '
+    'after the other from one message, while another reads them together, are a note; if it waits '
+    'between the two writes, a warning. Threads that the program starts, timer '
     'threads and pool tasks included, and `main` beside a thread that spins count like '
     'callbacks, on any executor. Accesses before the start of a thread or after its join, and '
     'those that exclusive branches keep apart, are not reported. A flag that one tests and both '

@@ -123,3 +123,22 @@ def test_the_locks_are_told() -> None:
 
 def test_who_sends_what_it_has_changed_itself_is_not_told() -> None:
     assert pieces('pass', f'{TWO}; {SENT}') == ([], [])
+
+
+@pytest.mark.parametrize(
+    ('use', 'is_whole'),
+    [
+        ('print(self.grid.sum())', True),
+        ('np.mean(self.grid)', True),
+        ('self.grid[0]', False),
+        ('grid = self.other; np.mean(grid)', False),
+    ],
+)
+def test_an_array_that_is_filled_while_somebody_goes_over_it(use: str, is_whole: bool) -> None:
+    text = PROGRAM.replace('self.state = JointState()', 'self.grid = np.zeros(4)')
+    text = text.replace('self.state.position = [0.0] * 4', 'self.other = np.zeros(4)')
+    text = text.replace('CHANGES', 'for k in range(4): self.grid[k] = value')
+    text = text.replace('SENDS', use).replace('import copy', 'import numpy as np, copy')
+    (unit,) = scan_text(text).units
+    named = {piece.name for each in (*unit.callbacks, *unit.activities) for piece in each.pieces}
+    assert named == ({'Driver.grid'} if is_whole else set())

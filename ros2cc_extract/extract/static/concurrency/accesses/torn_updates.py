@@ -1,10 +1,11 @@
 """
-Objects that are changed piece by piece and published as a whole, as a message is.
+Objects that are changed piece by piece and read as a whole, as a message or an array is.
 
 ``self.state.position[wheel] = x`` leaves ``self.state`` the same object. ``publish(self.state)``
 copies all its fields at once under the global lock of CPython (rclpy 7.1.6 and 9.1.2,
 ``publisher.py``; generated ``*_s.c`` of the message packages), so that a message is torn where
-another thread stands between two changes. An object that is made anew each time does not count.
+another thread stands between two changes. Functions of NumPy go over an array in C, and so on
+the same terms. An object that is made anew each time does not count.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from ros2cc_extract.extract.static.python.machine.world import RECENT
 from ros2cc_extract.extract.static.python.values.values import (
     Class,
     Instance,
+    Library,
     Mystery,
     Native,
     Value,
@@ -31,6 +33,7 @@ from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Access
 
 _SENDS = 'publish'
+_ARRAYS = 'numpy.'
 _DEPTH = 8
 
 
@@ -47,13 +50,28 @@ def note_changed(
 
 
 def note_sent(machine: ConcurrentMachine, function: Value, node: ast.Call, frame: Frame) -> None:
-    """``publisher.publish(self.state)``: all of the object is read."""
-    is_sent = isinstance(function, Native) and function.name.rpartition('.')[2] == _SENDS
-    if machine.world.effects is None or not is_sent or len(node.args) != 1:
+    """``publisher.publish(self.state)``, ``self.grid.sum()``: all of the object is read."""
+    if machine.world.effects is None:
         return
-    whole = _object(machine, node.args[0], frame)
-    if whole is not None:
-        _note(machine, whole, frame.place(node), '')
+    for read in _read_whole(machine, function, node, frame):
+        whole = _object(machine, read, frame)
+        if whole is not None:
+            _note(machine, whole, frame.place(node), '')
+
+
+def _read_whole(
+    machine: ConcurrentMachine, function: Value, node: ast.Call, frame: Frame
+) -> Iterator[ast.expr]:
+    """What a call publishes, and the arrays that code which is not followed gets or has."""
+    is_sent = isinstance(function, Native) and function.name.rpartition('.')[2] == _SENDS
+    if is_sent and len(node.args) == 1:
+        yield node.args[0]
+    elif isinstance(function, (Mystery, Library)):
+        own = [node.func.value] if isinstance(node.func, ast.Attribute) else []
+        for part in (*own, *node.args):
+            values = options_of(_evaluated(machine, part, frame))
+            if any(isinstance(v, Mystery) and v.text.startswith(_ARRAYS) for v in values):
+                yield part
 
 
 def note_held(

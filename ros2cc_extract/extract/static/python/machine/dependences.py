@@ -52,6 +52,7 @@ class Reading:
     :param compared: what is only asked for whether it is still what the function knows.
     :param stored: the value that is being stored.
     :param is_whole: what is stored now is read and stored in one piece, see ``atomic_updates.py``.
+    :param taken_from: arguments of the function that what is stored now was taken from.
     :param calls: how many calls there were.
     :param tested_at: how many there were before a test, by its place.
     :param refusing: names because of which a goal was turned down.
@@ -72,6 +73,7 @@ class Reading:
     refusing: set[str] = field(default_factory=set)
     stored: Value | None = None
     is_whole: bool = False
+    taken_from: frozenset[str] = frozenset()
     down: dict[tuple[Place, int], frozenset[str]] = field(default_factory=dict)
     found: dict[tuple[Place, int], dict[str, str]] = field(default_factory=dict)
     asked: dict[Place, Asked] = field(default_factory=dict)

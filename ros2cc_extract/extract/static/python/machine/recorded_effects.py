@@ -29,6 +29,21 @@ class Piece:
     again: bool
 
 
+@dataclass(frozen=True)
+class Stored:
+    """
+    An attribute gets a value, see ``torn_state.py``.
+
+    :param behind: the last wait that lay behind it.
+    :param taken_from: arguments of the function that the value was taken from.
+    """
+
+    name: str
+    path: Path
+    behind: object
+    taken_from: frozenset[str]
+
+
 @dataclass
 class Looked:
     """
@@ -60,6 +75,7 @@ class EffectLog:
     :param pieces: what is changed piece by piece, or published as a whole.
     :param looped: the waits in a loop with an unknown number of rounds.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
+    :param stored_last: what was stored last in an object, by its name and the way there.
     :param resting: loops that await something in each round.
     :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
     :param looked: while a test is asked for what it looks at, see ``loop_ends.py``.
@@ -78,6 +94,7 @@ class EffectLog:
     stored: dict[Hold, set[str]] = field(default_factory=dict)
     looped: set[object] = field(default_factory=set)
     written: dict[object, tuple[object, bool]] = field(default_factory=dict)
+    stored_last: dict[object, Stored] = field(default_factory=dict)
     resting: set[Place | None] = field(default_factory=set)
     steps: dict[Place | None, Any] = field(default_factory=dict)
     unread: dict[object, tuple[Place, str]] = field(default_factory=dict)

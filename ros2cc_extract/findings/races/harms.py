@@ -1,0 +1,137 @@
+"""What one doer breaks for another, other than by two writes: loops, uses, messages, state."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.findings.base.rule import Doer
+from ros2cc_extract.findings.races.critical_sections import (
+    keep_apart,
+    kept_between,
+    read_for,
+    reads_of,
+    waits,
+    writes_of,
+)
+from ros2cc_extract.findings.races.lifecycle import comes_before
+from ros2cc_extract.light_dataclasses import dataclass
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import Access
+from ros2cc_extract.spec.program_order import steps
+
+
+@dataclass(frozen=True)
+class Use:
+    """A write of an attribute by a callback or a thread, or a loop over it."""
+
+    doer: Doer
+    access: Access
+
+    @property
+    def place(self) -> Place:
+        """Where it stands; the callback where the line is not known."""
+        doer = self.doer
+        return self.access.source or doer.defined or doer.source or Place(doer.name)
+
+
+def torn_messages(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """Objects that one publishes and the other changes piece by piece, without a common lock."""
+    for sender, changer in ((one, other), (other, one)):
+        yield from (
+            (Use(sender, sent), Use(changer, change))
+            for sent in sender.pieces
+            for change in changer.pieces
+            if sent.name == change.name
+            and change.update
+            and not sent.update
+            and _may_meet(Use(sender, sent), Use(changer, change))
+        )
+
+
+def _may_meet(first: Use, second: Use) -> bool:
+    """Whether no common lock keeps them apart, and neither is over before the other begins."""
+    return not (
+        keep_apart(first.access.locks, second.access.locks)
+        or comes_before(second.access, second.doer, first.doer)
+        or comes_before(first.access, first.doer, second.doer)
+    )
+
+
+# Their loops notice a change of size; those over a list see more or less, and raise nothing.
+_NOTICING = frozenset({'dict', 'set', 'deque'})
+
+
+def loops_changed(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """Loops of one over a collection that the other changes in place, without a common lock."""
+    for looper, changer in ((one, other), (other, one)):
+        for read in looper.reads:
+            if read.iterates in _NOTICING:
+                yield from (
+                    (Use(looper, read), Use(changer, write))
+                    for write in changer.writes
+                    if write.name == read.name
+                    and write.in_place
+                    and not write.keeps_size
+                    and _may_meet(Use(looper, read), Use(changer, write))
+                )
+
+
+def uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """Objects that one tests and then uses, and the other sets to ``None`` in between."""
+    for user, clearer in ((one, other), (other, one)):
+        cleared = writes_of(clearer)
+        for use in (*user.reads, *(write for write in user.writes if write.in_place)):
+            clears = [write for write in cleared.get(use.name, ()) if write.clears]
+            tested = read_for(use, user) if use.rests and clears else None
+            if tested is not None:
+                kept = kept_between(tested, use, user)
+                yield from (
+                    (Use(user, use), Use(clearer, write))
+                    for write in clears
+                    if not keep_apart(kept, write.locks)
+                    and not comes_before(use, user, clearer)
+                    and not comes_before(write, clearer, user)
+                )
+
+
+def torn_states(one: Doer, other: Doer, pauses: Doer | None = None) -> Iterator[tuple[Use, Use]]:
+    """
+    Attributes that belong together, read by one while the other has written half of them.
+
+    :param pauses: the only one of them whose thread others may have in between: while it waits.
+    """
+    for reader, writer in ((one, other), (other, one)):
+        for last in writer.writes:
+            first = written_before(last, writer)
+            if first is not None:
+                yield from _read_together(reader, writer, (first, last), pauses)
+
+
+def written_before(last: Access, writer: Doer) -> Access | None:
+    """The write of the attribute that ``last`` belongs with."""
+    firsts = [each for each in writes_of(writer).get(last.joins or '', ()) if not each.in_place]
+    before = [each for each in firsts if steps(each) < steps(last)]
+    return max(before, key=steps, default=None)
+
+
+def _read_together(
+    reader: Doer, writer: Doer, writes: tuple[Access, Access], pauses: Doer | None
+) -> Iterator[tuple[Use, Use]]:
+    """The reads of both attributes, unless a lock is held over these and over the writes."""
+    kept = kept_between(*writes, writer)
+    found = [
+        [read for _, read in reads_of(reader).get(write.name, ()) if not read.compared]
+        for write in writes
+    ]
+    if not all(found):
+        return
+    begin, end = sorted((reads[0] for reads in found), key=steps)
+    if keep_apart(kept, kept_between(begin, end, reader)):
+        return
+    between = {writer.name: writes, reader.name: (begin, end)}
+    if pauses is not None and not waits(*between[pauses.name], pauses):
+        return
+    for reads, write in zip(found, writes, strict=True):
+        is_apart = comes_before(reads[0], reader, writer) or comes_before(write, writer, reader)
+        if not is_apart:
+            yield Use(reader, reads[0]), Use(writer, write)
