@@ -368,6 +368,22 @@ def test_a_short_sleep_is_long_where_a_timer_misses_five_runs() -> None:
     assert found(unit(ONE_THREAD, slow, timer('fast', period_s=0.05))) == []
 
 
+@pytest.mark.parametrize(('period', 'is_late'), [(0.05, True), (1.0, False)])
+def test_a_group_of_ones_own_waits_by_intention_unless_a_timer_misses_runs(
+    period: float, is_late: bool
+) -> None:
+    slow = subscription('on_say', 'io', blocking=sleeps(2.0))
+    spec = unit(
+        threads(4),
+        slow,
+        timer('control', 'io', period_s=period),
+        groups=(DEFAULT, exclusive('io')),
+    )
+    messages = [each.message for each in findings_of([spec], []) if each.code == 'CC201']
+    said = "on_say sleeps 2 s and holds group 'io': control waits that long"
+    assert messages == ([said] if is_late else [])
+
+
 def test_a_timer_created_later_is_the_victim_and_never_an_earlier_one() -> None:
     early, late = timer('early'), timer('late', period_s=0.1, blocking=sleeps(0.2))
     free = timer('free', 'other')

@@ -41,8 +41,8 @@ def find(context: Context) -> Iterator[Hit]:
     pauses = (wait for wait in timed if _is_pause(wait) or _is_long_wait(wait, context))
     for _name, waits in groupby(pauses, key=lambda wait: wait.caller.name):
         own = list(waits)
-        long = [wait for wait in own if seconds_of(wait) >= LONG_SLEEP_S]
         short = _long_for_timers_s(own[0].caller, context)
+        long = [wait for wait in own if seconds_of(wait) >= max(LONG_SLEEP_S, short)]
         if not long:
             sleeps = [wait for wait in own if _is_sleep(wait)]
             long = [wait for wait in sleeps if seconds_of(wait) >= short]
@@ -145,17 +145,28 @@ def _held_up(caller: Callback, context: Context) -> tuple[str, tuple[Callback, .
         others = tuple(c for c in context.written if c != caller)
         return f'the only thread of the {executor.kind or "executor"}', others
     group = context.exclusive_group(caller)
-    if group is None or not group.default or not honours_groups(executor):
+    if group is None or not honours_groups(executor):
         return None
     others = tuple(c for c in context.written if c.group == group.name and c != caller)
     return group.display_name, others
 
 
 def _long_for_timers_s(caller: Callback, context: Context) -> float:
-    """From here on a sleep is long for the timers that it holds up."""
+    """
+    From here on a sleep is long for the timers that it holds up.
+
+    What shares a group that was made for it waits by intention, unless a timer does not keep up.
+    """
     held_up = _held_up(caller, context)
     every = min((period for _, period in _timers(held_up[1] if held_up else ())), default=inf)
-    return min(LONG_SLEEP_S, max(SHORTEST_S, MISSED * every))
+    long = max(SHORTEST_S, MISSED * every)
+    return min(LONG_SLEEP_S, long) if _holds_services(caller, context) else long
+
+
+def _holds_services(caller: Callback, context: Context) -> bool:
+    """Whether the services that rclpy makes for each node wait for it too."""
+    group = context.exclusive_group(caller)
+    return is_one_thread(context.unit.executor) or (group is not None and group.default)
 
 
 def _timers(callbacks: Iterable[Callback]) -> Iterator[tuple[Callback, float]]:
@@ -172,12 +183,15 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
     if held_up is None:
         return
     held, others = held_up
-    stopped = [*([shown(others)] if others else []), 'the parameter services']
+    stopped = [shown(others)] if others else []
+    if _holds_services(wait.caller, context):
+        stopped.append('the parameter services of the node')
+    verb = 'waits' if len(others) == len(stopped) == 1 else 'wait'
     more = sorted((s for s in sleeps if s is not wait), key=lambda sleep: sleep.place)
     yield Hit(
         place=wait.place,
         message=f'{wait.caller.display_name} {_how_long(wait)}{_how_often(more, wait)} and '
-        f'holds {held}: {" and ".join(stopped)} of the node wait that long',
+        f'holds {held}: {" and ".join(stopped)} {verb} that long',
         help=_help(executor),
         severity=Severity.NOTE if _is_rare(wait, others) else None,
         subjects=(wait.caller.name,),
@@ -243,17 +257,18 @@ RULE = Rule(
     slug='long-sleep',
     severity=Severity.WARNING,
     title='Long sleep in a callback that others wait for',
-    what='A callback sleeps for a second or longer while it holds the only thread, or the '
-    'default group of its node; or for a tenth of a second or longer where a timer there misses '
-    'five runs meanwhile. Everything else there waits, also the parameter services: `ros2 param` '
-    'hangs. The same holds for a lock that is held over a long sleep, or over a loop that sleeps '
-    'in each iteration, where other callbacks take the lock: an execute callback that holds it '
-    'during its whole run delays the cancel request. A wait with a time-out counts too: it lasts '
-    'that long if nothing arrives. So does a sleep by a `Rate`. It is only a note where a timer '
-    'misses five runs but something may end the wait sooner, and where only the services that '
-    'rclpy itself creates wait: they are rarely called, and go on afterwards. Iterations of a '
-    'loop are counted where their number is known, and short sleeps are added up where no branch '
-    'skips them. Each callback has one finding, at its longest sleep.',
+    what='A callback sleeps for a second or longer while it holds the only thread, or the default '
+    'group of its node; or for a tenth of a second or longer where a timer there, or in a '
+    'mutually exclusive group of their own, misses five runs meanwhile. Everything else there '
+    'waits, also the parameter services: `ros2 param` hangs. The same holds for a lock that '
+    'is held over a long sleep, or over a loop that sleeps in each iteration, where other '
+    'callbacks take the lock: an execute callback that holds it during its whole run delays '
+    'the cancel request. A wait with a time-out counts too: it lasts that long if nothing '
+    'arrives. So does a sleep by a `Rate`. It is only a note where a timer misses five runs '
+    'but something may end the wait sooner, and where only the services that rclpy itself '
+    'creates wait: they are rarely called, and go on afterwards. Iterations of a loop are '
+    'counted where their number is known, and short sleeps are added up where no branch skips '
+    'them. Each callback has one finding, at its longest sleep.',
     why='A callback that holds a lock blocks all others that take it for that long, in any group '
     'and on any number of threads; a loop of unknown length counts from 0.1 s for each '
     'iteration. Every node has six parameter services and a type-description service in its '
