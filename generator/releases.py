@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.generator.executor_kinds import executor_kind
+from dataclasses import replace
+
+from ros2cc_extract.generator.executor_kinds import TASK_RANK, executor_kind, rank_of
 from ros2cc_extract.generator.nested_spins import is_spin
 from ros2cc_extract.generator.resources import is_foreign, may_pass_unseen
 from ros2cc_extract.generator.template_files import Profile
@@ -13,6 +15,7 @@ from ros2cc_extract.spec.releases.table import (
     FUTURE_YIELDS_ITSELF,
     NODE_STAYS,
     SPIN_REFUSED_TWICE,
+    TASKS_OLDEST_FIRST,
     UNTIL_ASKS_FUTURE,
 )
 
@@ -31,6 +34,17 @@ def felt(spec: Spec) -> tuple[Behaviour, ...]:
     )
     asks = (UNTIL_ASKS_FUTURE,) if any(late_spins(spec)) else ()
     return (*spins, *asks, *((FUTURE_YIELDS_ITSELF,) if is_woken else ()))
+
+
+def model_setting(spec: Spec) -> tuple[tuple[str, bool | None], ...]:
+    """
+    Say how the release of a unit sets the switches that its model reads.
+
+    Units that differ in nothing but their release have one model where these are equal.
+    """
+    has_tasks = any(rank_of(callback) == TASK_RANK for callback in spec.callbacks)
+    rows = (*felt(replace(spec, rclpy=None)), *((TASKS_OLDEST_FIRST,) if has_tasks else ()))
+    return tuple((row.name, row.holds(spec.rclpy)) for row in rows if row is not UNTIL_ASKS_FUTURE)
 
 
 def differing(spec: Spec, profile: Profile) -> tuple[Behaviour, ...]:

@@ -64,6 +64,7 @@ class Job:
     :param noticed: what is known already, such as folders that cannot be looked into.
     :param pool: what runs the searches; the cores of this machine by default.
     :param shard: of all units only its own are verified and reported.
+    :param answered: what models of units have answered under another release, by ``Task.model``.
     :param known_units: what shards have found, by ``Task.key``; nothing is verified then.
     """
 
@@ -84,6 +85,7 @@ class Job:
     noticed: tuple[Diagnostic, ...] = ()
     pool: Pool | None = None
     shard: Shard | None = None
+    answered: Mapping[str, Verification] = field(default_factory=dict)
     known_units: Mapping[str, Examined] | None = None
 
     @property
@@ -99,6 +101,7 @@ class Outcome:
 
     :param verifications: for the reader; ``judged`` are those that findings rest on, under all
         releases that are judged.
+    :param models: of each unit, ``Task.model``.
     :param sources: text of the scanned files and of those that findings lead to, by path.
     :param accepted: how many findings a comment or the baseline accepts.
     :param promises: of each unit, what is proven, broken and undecided.
@@ -112,6 +115,7 @@ class Outcome:
     closed: tuple[ClosedSpec, ...]
     verifications: tuple[Verification, ...]
     judged: tuple[Verification, ...]
+    models: tuple[str, ...]
     findings: tuple[Finding, ...]
     accepted: int
     sources: Mapping[str, str]
@@ -206,6 +210,7 @@ def check_paths(job: Job, stderr: TextIO) -> Outcome:
         closed=tuple(task.closed for task in tasks),
         verifications=tuple(each.shown for each in examined),
         judged=tuple(each.under_all for each in examined),
+        models=tuple(task.model for task in tasks),
         findings=compared.new,
         accepted=len(suppressed.accepted) + len(compared.known),
         sources=sources,
@@ -233,6 +238,7 @@ def _units_of(job: Job, extraction: Extraction) -> tuple[tuple[Spec, ...], list[
     # Verdicts that will not be shown are not asked for.
     options = job.options if job.shows_verdicts else judging_options(job.options)
     tasks = [Task(each, close(unit, job.policy), options, job.keeps_runs) for unit, each in own]
+    tasks = [replace(each, answered=job.answered.get(each.model)) for each in tasks]
     return tuple(unit for unit, _ in own), tasks
 
 

@@ -7,6 +7,7 @@ Verdicts and findings of one unit, asked anew.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 from ros2cc_extract.deadline import Deadline, TimeOverError, ended_by
 from ros2cc_extract.findings.base.model import Finding
@@ -48,15 +49,18 @@ def examine(
 def _examine(
     task: Task, watch: OnProgress | None, deadline: Deadline | None, shelf: Shelf
 ) -> Examined:
-    shown = _verify_in_time(task.closed, task.options, watch, deadline, shelf)
-    judged = shown
-    if task.judging:
-        judged = _verify_in_time(task.closed, task.judging, watch, deadline, shelf)
     options = task.judging or task.options
+    verify = partial(_verify_in_time, watch=watch, deadline=deadline, shelf=shelf)
+    judged = task.answered or verify(task.closed, options)
+    shown = verify(task.closed, task.options) if task.judging else judged
     rows = differing(task.closed.spec, options.profile)
     first, *others = settings(rows)
     tasks = [task.under(setting.release) for setting in others]
-    elsewhere = [_verify_in_time(each.closed, options, watch, deadline, shelf) for each in tasks]
+    answers = {task.model: judged}
+    for each in tasks:
+        if each.model not in answers:
+            answers[each.model] = verify(each.closed, options)
+    elsewhere = [answers[each.model] for each in tasks]
     found = [_findings(*each) for each in zip([task, *tasks], [judged, *elsewhere], strict=True)]
     findings = of_all_releases([*zip([first, *others], found, strict=True)], rows)
     kept = _kept(shown, task.keeps_runs)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import replace
+from dataclasses import field, replace
 
 from ros2cc_extract.cache_file import tool_version
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.generator.build import Family
+from ros2cc_extract.generator.releases import model_setting
 from ros2cc_extract.generator.template_files import Profile
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.close import ClosedSpec, Policy, close
@@ -29,6 +30,7 @@ class Task:
     :param unit: as it was extracted; ``closed`` is what the model shows of it.
     :param keeps_runs: every run is wanted, not only those that findings show.
     :param joined: of what units ``unit`` is made, where it is made of several.
+    :param answered: what its model, of another release, has answered already.
     """
 
     unit: Spec
@@ -36,6 +38,7 @@ class Task:
     options: Options
     keeps_runs: bool
     joined: Joined | None = None
+    answered: Verification | None = field(default=None, repr=False)
 
     @property
     def judging(self) -> Options | None:
@@ -46,7 +49,8 @@ class Task:
     def under(self, release: str) -> Task:
         """The same unit under one release of rclpy."""
         closed = replace(self.closed, spec=replace(self.closed.spec, rclpy=release))
-        return replace(self, unit=replace(self.unit, rclpy=release), closed=closed)
+        unit = replace(self.unit, rclpy=release)
+        return replace(self, unit=unit, closed=closed, answered=None)
 
     @property
     def size(self) -> int:
@@ -61,8 +65,14 @@ class Task:
     @property
     def key(self) -> str:
         """Equal where nothing differs on which the answer depends."""
-        text = f'{tool_version()}\0{self!r}'
-        return hashlib.sha256(text.encode('utf-8', 'surrogatepass')).hexdigest()
+        return _hashed(f'{tool_version()}\0{self!r}')
+
+    @property
+    def model(self) -> str:
+        """Equal where what findings rest on is one model, asked the same, whatever the release."""
+        spec = self.closed.spec
+        closed = replace(self.closed, spec=replace(spec, rclpy=None))
+        return _hashed(f'{closed!r}\0{self.judging or self.options!r}\0{model_setting(spec)!r}')
 
 
 @dataclass(frozen=True)
@@ -95,6 +105,10 @@ class Examined:
     def is_final(self) -> bool:
         """Whether no limit of this machine has cut it short."""
         return all(each.complete for each in (self.shown, self.judged, *self.elsewhere))
+
+
+def _hashed(text: str) -> str:
+    return hashlib.sha256(text.encode('utf-8', 'surrogatepass')).hexdigest()
 
 
 def judging_options(options: Options) -> Options:

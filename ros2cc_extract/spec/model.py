@@ -171,8 +171,8 @@ class Callback:
     :param count: how many such entities one creation place makes.
     :param alternative: equal marks stand for exclusive branches.
     :param branch: which of these; callbacks of one branch are there together.
-    :param takes_info: its function needs the information of a message, or of the call of a timer,
-        which only some releases of rclpy pass.
+    :param cancelled: of a timer, code may cancel it, or it does not start by itself.
+    :param takes_info: it needs information that only some releases pass to a function.
     :param askers: of a service, how many requests at a time may be on their way from the known
         clients, where several may.
     :param library: made by a library on the node's behalf (tf, message_filters …).
@@ -200,6 +200,7 @@ class Callback:
     branch: int | None = None
     coroutine: bool = False
     one_shot: bool = False
+    cancelled: bool = False
     takes_info: bool = False
     askers: int = 0
     destroyed: bool = False
@@ -356,11 +357,10 @@ class Executor:
     """
     The executor of the unit and its worker threads.
 
-    :param kind: class name as in rclpy, a custom class name, or ``Unknown`` when none is found;
-        ``None`` in hand-written files of the published format.
+    :param kind: class name as in rclpy, or a custom one; ``None`` in the published format.
+    :param import_caught: another takes its place where that class cannot be imported.
     :param threads: names of the worker threads, at least one.
-    :param threads_source: where the number comes from: a place as text, or a rule
-        (``default_cpu_count``: rclpy takes the number of CPUs at run time).
+    :param threads_source: a place as text, or ``default_cpu_count``: rclpy takes that at run time.
     :param unresolved: why the executor, its kind or its thread count could not be followed.
     :param spun: how it is run: ``rclpy.spin``, ``spin_once`` …
     :param alternative: as of a callback: units of equal marks are never run together.
@@ -369,6 +369,7 @@ class Executor:
     name: str
     threads: tuple[str, ...]
     kind: str | Unknown | None = None
+    import_caught: bool = False
     threads_source: str | None = None
     in_thread: bool = False
     spun: str | None = None

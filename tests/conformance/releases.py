@@ -57,6 +57,7 @@ def main() -> int:
     parser.add_argument('--programs', type=int, default=50)
     parser.add_argument('--folder', type=Path, default=Path('build/releases'))
     parser.add_argument('--keep', type=Path, help='folder for the traces of failing chunks')
+    parser.add_argument('--at-once', type=int, default=1, help='processes; programs mostly wait')
     args = parser.parse_args()
     checkout = os.environ.get(VARIABLE)
     if checkout is None:
@@ -66,7 +67,8 @@ def main() -> int:
     for each in args.releases:
         python, release = built(each, Path(checkout), args.folder)
         print(f'rclpy {each}', flush=True)
-        outcomes |= set(run_suite(python, args.first, args.programs, args.keep, release).outcomes)
+        tally = run_suite(python, args.first, args.programs, args.keep, release, args.at_once)
+        outcomes |= set(tally.outcomes)
     return 0 if outcomes <= {Outcome.CONFORMS} else 1
 
 

@@ -9,13 +9,15 @@ from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import sys
 import tempfile
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 
 from ros2cc_extract.conform.search import Outcome
@@ -55,6 +57,12 @@ class Tally:
         self.delayed += was_delayed
         if answer.outcome is not Outcome.CONFORMS:
             self.failed.append(ran.seed)
+
+    def join(self, other: Tally) -> None:
+        """Count what another tally has counted."""
+        for each in fields(self):
+            mine, theirs = getattr(self, each.name), getattr(other, each.name)
+            setattr(self, each.name, mine + theirs)
 
     def __str__(self) -> str:
         told = ', '.join(f'{self.outcomes[o]} {o.value}' for o in Outcome)
@@ -111,28 +119,52 @@ def own_environment() -> Iterator[dict[str, str]]:
         }
 
 
-def run_suite(
-    python: str, first: int, programs: int, keep: Path | None, built: Release | None = None
-) -> Tally:
-    """Run programs in chunks, compare them, and print what fails."""
-    tally = Tally()
-    for start in range(first, first + programs, CHUNK):
-        seeds = range(start, min(start + CHUNK, first + programs))
+@dataclass(frozen=True)
+class Chunk:
+    """Programs that run in one process, and the folder for its trace if one fails."""
+
+    python: str
+    seeds: range
+    keep: Path | None
+    built: Release | None
+
+    def run(self) -> Tally:
+        """Run the programs, and compare what they did."""
+        tally = Tally()
         with tempfile.TemporaryDirectory(prefix='ros2cc-conformance-') as folder:
             begun = time.monotonic()
             with own_environment() as environment:
-                given = environment if built is None else built.over(environment)
-                trace, ran = run_programs(python, runnable(seeds, built), given, Path(folder))
-            assert built is None or trace.rclpy == built.version, trace.rclpy
-            tally.run_s += time.monotonic() - begun
-            begun, failed = time.monotonic(), len(tally.failed)
+                given = environment if self.built is None else self.built.over(environment)
+                seeds = runnable(self.seeds, self.built)
+                trace, ran = run_programs(self.python, seeds, given, Path(folder))
+            assert self.built is None or trace.rclpy == self.built.version, trace.rclpy
+            tally.run_s = time.monotonic() - begun
+            begun = time.monotonic()
             for each in ran:
                 tally.add(each, *compare_in_time(trace, each))
-            tally.check_s += time.monotonic() - begun
-            if keep is not None and len(tally.failed) > failed:
+            tally.check_s = time.monotonic() - begun
+            if self.keep is not None and tally.failed:
                 for name in ('ran.jsonl', 'trace.jsonl'):
-                    (keep / f'{start}_{name}').write_bytes((Path(folder) / name).read_bytes())
-        print(tally, flush=True)
+                    shutil.copy(Path(folder) / name, self.keep / f'{self.seeds.start}_{name}')
+        return tally
+
+
+def run_suite(
+    python: str,
+    first: int,
+    programs: int,
+    keep: Path | None,
+    built: Release | None = None,
+    at_once: int = 1,
+) -> Tally:
+    """Run programs in chunks, so many at once, compare them, and print what fails."""
+    tally, over = Tally(), first + programs
+    seeds = (range(start, min(start + CHUNK, over)) for start in range(first, over, CHUNK))
+    chunks = [Chunk(python, each, keep, built) for each in seeds]
+    with ProcessPoolExecutor(at_once) as pool:
+        for done in pool.map(Chunk.run, chunks):
+            tally.join(done)
+            print(tally, flush=True)
     return tally
 
 
@@ -144,11 +176,12 @@ def main() -> int:
     parser.add_argument('--keep', type=Path, help='folder for the traces of failing chunks')
     parser.add_argument('--release', help='the one that --built holds, such as 7.1.11')
     parser.add_argument('--built', type=Path, metavar='FOLDER', help='with rclpy, see releases.py')
+    parser.add_argument('--at-once', type=int, default=1, help='processes; programs mostly wait')
     args = parser.parse_args()
     if args.keep is not None:
         args.keep.mkdir(parents=True, exist_ok=True)
     built = Release(args.release, args.built.resolve()) if args.built is not None else None
-    tally = run_suite(args.python, args.first, args.programs, args.keep, built)
+    tally = run_suite(args.python, args.first, args.programs, args.keep, built, args.at_once)
     return 0 if set(tally.outcomes) <= {Outcome.CONFORMS} else 1
 
 

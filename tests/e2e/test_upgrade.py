@@ -9,6 +9,10 @@ import pytest
 
 from ros2cc_extract.cli.commands import upgrade
 from ros2cc_extract.cli.main import main
+from ros2cc_extract.pipeline import unit_examination
+from ros2cc_extract.spec.close import ClosedSpec
+from ros2cc_extract.verify.results.results import Verification
+from ros2cc_extract.verify.unit import verify_unit
 from tests.support.knots import knot
 
 RELEASES = Path(__file__).parents[1] / 'releases'
@@ -86,19 +90,44 @@ def test_upgrade_that_changes_nothing(node: str) -> None:
     assert upgraded(node, '7.1.9', 'jazzy') == (0, ['from rclpy 7.1.9 to 7.1.11: no change'])
 
 
-def test_what_is_decided_on_neither_is_told(node: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """That nothing changes in it is not known."""
+@pytest.fixture
+def knotted(node: str, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A node that is not decided in time."""
     monkeypatch.setattr(upgrade, 'SECONDS', 0.3)
-    knotted = Path(node).with_name('knot.py')
-    knotted.write_text(knot(7), encoding='utf-8')
-    status, out, _ = run('upgrade', '--from', '7.1.9', '--to', 'jazzy', str(knotted))
+    path = Path(node).with_name('knot.py')
+    path.write_text(knot(7), encoding='utf-8')
+    return path
+
+
+def test_what_is_decided_on_neither_is_told(knotted: Path) -> None:
+    """That nothing changes in it is not known: the turn of its task depends on the release."""
+    call = 'self.client0.call(Trigger.Request())'
+    text = knotted.read_text(encoding='utf-8')
+    knotted.write_text(text.replace(call, f'self.executor.create_task(print); {call}'))
+    status, out, _ = run('upgrade', '--from', '7.1.6', '--to', 'jazzy', str(knotted))
     assert (status, out.splitlines()) == (
         3,
         [
             'knot: not all of it is compared, because a limit was reached',
-            'from rclpy 7.1.9 to 7.1.11: no change',
+            'from rclpy 7.1.6 to 7.1.11: no change',
         ],
     )
+
+
+def test_one_model_of_two_releases_is_asked_once(
+    knotted: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What changes in it is known, though not all of it is decided."""
+    asked = []
+
+    def ask(closed: ClosedSpec, *arguments: object) -> Verification:
+        asked.append(closed.spec.rclpy)
+        return verify_unit(closed, *arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(unit_examination, 'verify_unit', ask)
+    status, out, _ = run('upgrade', '--from', '7.1.9', '--to', 'jazzy', str(knotted))
+    assert (status, out) == (0, 'from rclpy 7.1.9 to 7.1.11: no change\n')
+    assert asked == ['7.1.9']
 
 
 def test_release_that_nobody_has_looked_at_is_told(node: str) -> None:

@@ -30,8 +30,6 @@ MARK = re.compile(r'# differs: (.+)')
 LISTED_ONCE = 'spin-yields'
 #: What is decided is within a tenth of it, and one unit is not in a minute; the long suite waits.
 BRIEF_S = 2.0
-#: That another executor takes its place where it cannot be imported is not looked at.
-KNOWN_FALSE = {'events_executor_if_there': 'events-executor'}
 
 Line = tuple[int, str]
 each_node = pytest.mark.parametrize('node', NODES, ids=lambda node: node.stem)
@@ -88,8 +86,7 @@ def test_upgrade_lists_what_differs_and_nothing_else(
         }
         expected = differing(node, old, new)
         assert {line for line, _ in expected} <= {line for line, _ in listed}, (old, new)
-        false = {(line, KNOWN_FALSE.get(node.stem, '')) for line, _ in certain}
-        assert certain - false <= expected, (old, new)
+        assert certain <= expected, (old, new)
 
 
 @pytest.mark.live

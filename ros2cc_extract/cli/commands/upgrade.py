@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, TextIO
 
@@ -17,6 +18,7 @@ from ros2cc_extract.cli.shared.exit_status import (
 if TYPE_CHECKING:
     from ros2cc_extract.findings.upgrade import Change, Side
     from ros2cc_extract.pipeline.check import Outcome
+    from ros2cc_extract.verify.results.results import Verification
 
 SECONDS, MAX_SECONDS = 20.0, 120.0
 
@@ -44,23 +46,27 @@ def run(args: argparse.Namespace, stdout: TextIO, stderr: TextIO) -> int:
 
     old, new = newest_of(args.from_release), newest_of(args.to_release)
     report_releases((old, new), stderr)
-    before, after = _checked(args, old, stderr), _checked(args, new, stderr)
+    before = _checked(args, old, {}, stderr)
+    answered = dict(zip(before.models, before.judged, strict=True))
+    after = _checked(args, new, answered, stderr)
     _print_unread(after, stderr)
     if nothing_read(args.paths, after.extraction):
         return EXIT_ERROR
-    sides = _side(before, old), _side(after, new)
+    alike = frozenset(before.models).intersection(after.models)
+    sides = _side(before, old, alike), _side(after, new, alike)
     found = changes(after.units, *sides, after.extraction.idle)
     for change in found:
         print(_line(change), file=stdout)
         for row in change.because:
             print(f'    because of {row.name}: {row.source}', file=stdout)
-    for unit in sorted(not_compared(*sides)):
+    open_units = sorted(not_compared(*sides))
+    for unit in open_units:
         print(f'{unit}: not all of it is compared, because a limit was reached', file=stdout)
     count = f'{len(found)} change{"" if len(found) == 1 else "s"}' if found else 'no change'
     print(f'from rclpy {old} to {new}: {count}', file=stdout)
     if found:
         return EXIT_FINDINGS
-    is_open = before.is_undecided or after.is_undecided
+    is_open = bool(open_units or after.extraction.cut)
     return EXIT_UNDECIDED if is_open or has_unread(after.extraction.diagnostics) else EXIT_CLEAN
 
 
@@ -73,15 +79,25 @@ def _print_unread(outcome: Outcome, stderr: TextIO) -> None:
             print(f'{finding.place}: {finding.message}', file=stderr)
 
 
-def _side(outcome: Outcome, release: str) -> Side:
+def _side(outcome: Outcome, release: str, alike: frozenset[str]) -> Side:
+    """
+    What one release does.
+
+    :param alike: models that both releases have; what is open there is the same for both.
+    """
     from ros2cc_extract.findings.upgrade import Side
 
-    pairs = zip(outcome.units, outcome.judged, strict=False)
-    undecided = frozenset(unit.name for unit, judged in pairs if judged.is_cut)
-    return Side(release=release, findings=outcome.findings, undecided=undecided)
+    rows = zip(outcome.units, outcome.judged, outcome.models, strict=True)
+    undecided = (unit.name for unit, judged, model in rows if judged.is_cut and model not in alike)
+    return Side(release=release, findings=outcome.findings, undecided=frozenset(undecided))
 
 
-def _checked(args: argparse.Namespace, release: str, stderr: TextIO) -> Outcome:
+def _checked(
+    args: argparse.Namespace,
+    release: str,
+    answered: Mapping[str, Verification],
+    stderr: TextIO,
+) -> Outcome:
     from ros2cc_extract.checker.api import Limits
     from ros2cc_extract.pipeline.check import Job, check_paths
     from ros2cc_extract.pipeline.config import assumptions_of, load_config
@@ -97,7 +113,9 @@ def _checked(args: argparse.Namespace, release: str, stderr: TextIO) -> Outcome:
         assumptions=replace(assumptions_of(config, []), rclpy=release),
         root=config.root.resolve(),
         cached=not args.no_cache,
+        keeps_runs=True,
         max_seconds=MAX_SECONDS,
+        answered=answered,
     )
     outcome = check_paths(job, stderr)
     if outcome.interrupted:

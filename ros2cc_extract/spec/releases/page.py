@@ -21,10 +21,9 @@ a promise is kept only where it is kept on all. `--distro jazzy` or `--rclpy 7.1
 alike. `model` and a sweep have one model: what not all releases have, it takes none to have.
 `conform` judges by the release that the trace names. `upgrade --from humble --to lyrical PATH`
 lists what changes for your nodes, certain or under a condition that the line names. It was
-compared with 41 whole nodes on 3.3.21, 7.1.6, 7.1.11, 9.1.2, 9.1.5, 10.0.10 and 11.0.0
-(`tests/releases/upgrades`): it names each of the 32 that some two of these releases run
-differently. It takes an import of the `EventsExecutor` to succeed even where the code has
-something else for the case that it fails.
+compared with 43 whole nodes on 3.3.21, 7.1.6, 7.1.11, 9.1.2, 9.1.5, 10.0.10 and 11.0.0
+(`tests/releases/upgrades`): it names each of the 33 that some two of these releases run
+differently, at its line, and nothing else.
 
 A release that is not in the table is reported: *rclpy 12.3.0 is judged as 11.0.1, the newest
 known*.

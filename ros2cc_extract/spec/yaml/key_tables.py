@@ -256,6 +256,7 @@ CALLBACK = record(
                 ('branch', 'branch', optional(COUNT)),
                 ('coroutine', 'coroutine', FLAG),
                 ('one_shot', 'one_shot', FLAG),
+                ('cancelled', 'cancelled', FLAG),
                 ('takes_info', 'takes_info', FLAG),
                 ('askers', 'askers', COUNT),
                 ('destroyed', 'destroyed', FLAG),
@@ -418,6 +419,7 @@ EXECUTOR_ROWS: tuple[Row, ...] = (
     *plain_rows(
         Executor,
         (
+            ('import_caught', 'import_caught', FLAG),
             ('threads_source', 'threads_source', optional(TEXT)),
             ('in_thread', 'in_thread', FLAG),
             ('spun', 'spun', optional(TEXT)),

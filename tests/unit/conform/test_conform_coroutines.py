@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ros2cc_extract.conform.search import Outcome
 from ros2cc_extract.conform.trace import Event, Subject, Trace
@@ -68,7 +68,19 @@ def steps() -> Iterator[tuple[int, str, int]]:
         yield WORKER, 'end', TICK
 
 
-def trace() -> Trace:
+def answered_before_the_await() -> Iterator[tuple[int, str, int]]:
+    """A run asks, and is kept from its `await` until the answer has been collected."""
+    first = [*run(WORKER, TICK, 'suspend')]
+    answer = [*run(ANOTHER, CLIENT, 'end')]
+    yield from first[:-1]
+    yield from answer[:3]
+    yield first[-1]
+    yield from answer[3:]
+    yield WORKER, 'resume', TICK
+    yield WORKER, 'end', TICK
+
+
+def trace(made: Iterable[tuple[int, str, int]]) -> Trace:
     subjects = (
         Subject(EXECUTOR, 'executor', None, None, None, KIND, None),
         Subject(TICK, 'timer', 'node', 9, EXECUTOR, 'tick', None),
@@ -76,12 +88,17 @@ def trace() -> Trace:
     )
     events = (
         Event(number * 30_000_000, thread, name, about)
-        for number, (thread, name, about) in enumerate(steps())
+        for number, (thread, name, about) in enumerate(made)
     )
     return Trace(1, '9.1.2', 0, {}, {each.number: each for each in subjects}, tuple(events))
 
 
 def test_each_observation_needs_few_states_however_many_runs_are_suspended() -> None:
-    compared = compare(trace(), EXECUTOR, unit())
+    compared = compare(trace(steps()), EXECUTOR, unit())
     assert compared.answer.outcome is Outcome.CONFORMS
     assert compared.answer.seen == len(compared.observations) + 1
+
+
+def test_an_answer_may_arrive_before_the_await_that_asks_for_it_is_seen() -> None:
+    compared = compare(trace(answered_before_the_await()), EXECUTOR, unit())
+    assert compared.answer.outcome is Outcome.CONFORMS

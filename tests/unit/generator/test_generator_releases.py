@@ -9,7 +9,7 @@ import pytest
 
 from ros2cc_extract.generator.build import Profile, render
 from ros2cc_extract.generator.executor_kinds import TaskOrder, task_order
-from ros2cc_extract.generator.releases import felt
+from ros2cc_extract.generator.releases import felt, model_setting
 from ros2cc_extract.spec.releases.table import SPIN_REFUSED_TWICE
 from tests.property.closed_specs import (
     random_entity_unit,
@@ -71,3 +71,16 @@ def test_units_that_feel_releases_are_among_them() -> None:
         make(Random(n), callbacks=4, groups=3, threads=2) for n in range(10) for make in MAKERS
     ]
     assert {row.name for unit in units for row in felt(unit.spec)} >= {'spin-refused-twice'}
+
+
+@pytest.mark.parametrize('number', range(20))
+def test_units_of_one_setting_have_one_model(number: int) -> None:
+    """``upgrade`` asks it once."""
+    random = Random(number)
+    closed = MAKERS[number % len(MAKERS)](random, callbacks=4, groups=3, threads=2)
+    models: dict[object, set[str]] = {}
+    for release in ('3.3.15', '7.1.6', *RELEASES):
+        of_release = replace(closed, spec=replace(closed.spec, rclpy=release))
+        text = render(of_release, profile=Profile.RCLPY).xml
+        models.setdefault(model_setting(of_release.spec), set()).add(text)
+    assert all(len(texts) == 1 for texts in models.values())

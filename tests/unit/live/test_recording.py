@@ -137,6 +137,22 @@ def test_paused_coroutine_leaves_its_thread_and_stays_in_its_group(tmp_path: Pat
     ]
 
 
+def test_a_run_in_vain_is_left_out(tmp_path: Path) -> None:
+    read = trace(
+        recording(tmp_path),
+        event(100, 12, 'run', 5),
+        event(110, 11, 'run', 4),
+        event(120, 12, 'run', 4),
+        event(130, 12, 'vain', 4),
+        event(140, 11, 'pause', 4),
+    )
+    assert [(e.thread, e.event, e.subject) for e in read.events()] == [
+        (12, 'run', 5),
+        (11, 'run', 4),
+        (11, 'pause', 4),
+    ]
+
+
 BIG, OTHER = 139644125758656, 139644125758657
 OVERLAPPING = (
     thread_name(BIG, 'a'),

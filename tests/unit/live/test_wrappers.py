@@ -13,7 +13,9 @@ import pickle
 import weakref
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from functools import partial
+from threading import Event, Lock
 from types import SimpleNamespace
 from typing import Any
 
@@ -414,6 +416,47 @@ def test_work_outside_groups_is_reported(recorder: Recorder, told: Told, replace
     mark_task(recorder, late, record)
     assert late() == 'worked'
     assert [name for name, _ in told()] == ['task', 'run', 'pause'] * 2
+
+
+class Shared(Handler):
+    """Two workers take it at a time, and the second one finds its lock taken."""
+
+    def __init__(self, second: ThreadPoolExecutor, is_over: bool) -> None:
+        super().__init__(self.work)
+        self.second, self.is_over = second, is_over
+        self.lock, self.met = Lock(), Event()
+
+    def executing(self) -> bool:
+        return self.met.is_set() and not self._done
+
+    def work(self) -> str:
+        taken = self.second.submit(self)
+        assert self.met.wait(5.0) if self.is_over else taken.result() is None
+        return 'worked'
+
+    def __call__(self) -> Any:
+        if self.lock.acquire(blocking=False):
+            with closing(SimpleNamespace(close=self.lock.release)):
+                return super().__call__()
+        self.met.set()
+        if self.is_over:
+            self.lock.acquire(timeout=5.0)
+        return None
+
+
+@pytest.mark.parametrize('is_over', [False, True])
+def test_a_run_in_vain_is_reported_as_such(
+    is_over: bool, recorder: Recorder, told: Told, replaced: Any
+) -> None:
+    """While another thread runs the task, or when it has done so."""
+    trace_runs(recorder, Shared, replaced)
+    with ThreadPoolExecutor(1) as second:
+        task = Shared(second, is_over)
+        record = recorder.note_task(Entity(), 'task', task.work)
+        assert record is not None
+        mark_task(recorder, task, record)
+        assert task() == 'worked'
+    assert sorted(name for name, _ in told()) == ['pause', 'run', 'run', 'task', 'vain']
 
 
 @pytest.mark.parametrize('only', [False, True])

@@ -27,6 +27,7 @@ from ..recorder.events import (
     SUSPEND,
     TAKE,
     TASK,
+    VAIN,
     WAIT,
     WOKEN,
 )
@@ -40,6 +41,7 @@ _KEPT_WITH_TASKS = {
     '_ros2cc_submitted': False,
     '_ros2cc_suspended': False,
     '_ros2cc_awaited': None,
+    '_ros2cc_over': False,
 }
 _clock = time.monotonic_ns
 
@@ -286,6 +288,9 @@ class _Steps:
         elif task.executing() or task._ros2cc_suspended or not _is_paused(task):
             return
         is_work = type(record) is TaskRecord
+        if is_work and _was_in_vain(task):
+            self._journal.note(VAIN, record.number)
+            return
         if not task.done():
             task._ros2cc_awaited = _innermost_future(task._handler)
             task._ros2cc_suspended = True
@@ -302,6 +307,19 @@ class _Steps:
 def _can_go_on(task: Any) -> bool:
     awaited = task._ros2cc_awaited
     return awaited is None or task.done() or awaited.done()
+
+
+def _was_in_vain(task: Any) -> bool:
+    """
+    Return whether another thread ran it: both had found it not begun.
+
+    Two laps hand over one task, and two workers take it at a time (7.1, ``task.py``: the second
+    one finds its lock taken).
+    """
+    if not task.done():
+        return bool(task.executing()) and not inspect.iscoroutine(task._handler)
+    was_over, task._ros2cc_over = task._ros2cc_over, True
+    return bool(was_over)
 
 
 def _is_paused(task: Any) -> bool:

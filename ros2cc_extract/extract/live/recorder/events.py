@@ -25,10 +25,24 @@ EVENT_NAMES = (
     'task',
     'run',
     'pause',
+    'vain',
 )
-BEGIN, REFUSED, END, WAIT, WOKEN, COLLECT, SUBMIT, TAKE, SUSPEND, RESUME, TASK, RUN, PAUSE = range(
-    len(EVENT_NAMES)
-)
+(
+    BEGIN,
+    REFUSED,
+    END,
+    WAIT,
+    WOKEN,
+    COLLECT,
+    SUBMIT,
+    TAKE,
+    SUSPEND,
+    RESUME,
+    TASK,
+    RUN,
+    PAUSE,
+    VAIN,
+) = range(len(EVENT_NAMES))
 # Only in the raw trace: a name follows, of as many bytes as the last number says; and events came
 # faster than they could be kept.
 THREAD_NAME, LOST = 254, 255

@@ -22,7 +22,9 @@ from ros2cc_extract.extract.live.recorder.events import (
     EVENT_NAMES,
     LOST,
     RAW_SUFFIX,
+    RUN,
     THREAD_NAME,
+    VAIN,
     Fields,
     rows,
 )
@@ -62,6 +64,7 @@ class Trace:
     :param lost: how often events came faster than they could be kept.
     :param count: how many events there are.
     :param reach: how many events must be held to put them in order.
+    :param vain: runs of tasks that another thread ran.
     """
 
     recording: Recording
@@ -70,11 +73,14 @@ class Trace:
     lost: int
     count: int
     reach: int
+    vain: frozenset[Fields] = frozenset()
 
     def events(self) -> Iterator[Event]:
         """Read the events in the order of their clock."""
-        for clock_ns, thread, what, subject in _ordered(_steps(self.file), self.reach):
-            yield Event(clock_ns, thread, EVENT_NAMES[what], subject)
+        for fields in _ordered(_steps(self.file), self.reach):
+            clock_ns, thread, what, subject = fields
+            if what != VAIN and fields not in self.vain:
+                yield Event(clock_ns, thread, EVENT_NAMES[what], subject)
 
 
 def read_trace(recording: Recording, raw: Path | None = None) -> Trace | None:
@@ -90,8 +96,15 @@ def read_trace(recording: Recording, raw: Path | None = None) -> Trace | None:
     path = Path(f'{recording.file}{RAW_SUFFIX}') if raw is None else raw
     threads: dict[int, str] = {}
     lost = count = 0
+    runs: dict[tuple[int, int], Fields] = {}
+    vain = set()
     try:
-        for (_, thread, what, _), name in _raw_rows(path):
+        for fields, name in _raw_rows(path):
+            _, thread, what, subject = fields
+            if what == RUN:
+                runs[thread, subject] = fields
+            elif what == VAIN and (thread, subject) in runs:
+                vain.add(runs.pop((thread, subject)))
             if what == THREAD_NAME:
                 threads[thread] = name
             elif what == LOST:
@@ -105,7 +118,7 @@ def read_trace(recording: Recording, raw: Path | None = None) -> Trace | None:
         return None
     except OSError as error:
         raise InputError(f'cannot be read: {error.strerror}', Place(str(path))) from error
-    return Trace(recording, path, threads, lost, count, reach)
+    return Trace(recording, path, threads, lost, count, reach, frozenset(vain))
 
 
 def _raw_rows(path: Path) -> Iterator[tuple[Fields, str]]:

@@ -270,6 +270,7 @@ class UnitBuilder:
             branch=branch,
             coroutine=facts.coroutine,
             one_shot=entity.one_shot and not entity.restarted,
+            cancelled=entity.cancelled or entity.dormant is not None,
             takes_info=entity.takes_info,
             destroyed=entity.destroyed or bool(entity.part_of and entity.part_of.destroyed),
             groupless=entity.kind in _GROUPLESS,

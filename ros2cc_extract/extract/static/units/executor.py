@@ -14,7 +14,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 )
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.values.exclusive_paths import NO_MARK, Mark, beyond
-from ros2cc_extract.extract.static.python.values.values import Class, Instance
+from ros2cc_extract.extract.static.python.values.values import Class, Instance, Library
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import NO_EXECUTOR, Executor
@@ -83,6 +83,7 @@ def executor_of(
         name=name,
         threads=threads,
         kind=state.unknown or elsewhere or state.kind,
+        import_caught=unit.mark[0] is not None and _is_import_caught(unit.executor, world),
         threads_source=_threads_source(state),
         in_thread=spin.in_thread and state.kind != LOOP_KIND if spin else False,
         spun=spin.how if spin else None,
@@ -92,6 +93,12 @@ def executor_of(
         assumed=_assumed_threads(state),
         source=spin.place if state.is_global and spin else unit.executor.place,
     )
+
+
+def _is_import_caught(executor: Instance, world: RosWorld) -> bool:
+    """Whether the program goes on where a release lacks the class of its executor."""
+    names = [cls.name for cls in executor.mro if isinstance(cls, Library)]
+    return any(world.caught_imports.get(name, False) for name in names)
 
 
 def _nested_spin(unit: Unit) -> Unknown | None:

@@ -53,6 +53,7 @@ from ros2cc_extract.extract.static.units.wakers.spins_aside import of_spin_aside
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import (
     forgets,
     is_unheard,
+    unless_cancelled,
     why_gone,
     why_in_another_run,
     why_lost,
@@ -105,7 +106,8 @@ class UnitWaits(DataWriters):
         """The waits of ``doer``."""
         kept = self._kept[id(doer)]
         pairs = zip(kept.raw, kept.named, strict=True)
-        return tuple(self._with_wakers(raw, named, doer) for raw, named in pairs)
+        waits = (self._with_wakers(raw, named, doer) for raw, named in pairs)
+        return tuple(unless_cancelled(wait, doer, self._world) for wait in waits)
 
     def of_set_up(self, raws: list[Blocking]) -> tuple[tuple[Blocking, Blocking], ...]:
         """Waits of code that no callback runs, each as it was met and as it is in the unit."""
@@ -203,8 +205,7 @@ class UnitWaits(DataWriters):
         if not isinstance(on, SettableRef):
             return False
         wakings = self._world.wakings.get(on.number, ())
-        setters = [waking for waking in wakings if waking.word is Word.SET]
-        return any(is_activity(waking.by) for waking in setters)
+        return any(each.word is Word.SET and is_activity(each.by) for each in wakings)
 
     def _with_wakers(self, raw: Blocking, named: Blocking, doer: Doer) -> Blocking:
         spin = of_spin_aside(self._world, raw, named, doer)

@@ -51,6 +51,8 @@ def _executor(executor: Executor) -> str:
         words.append('in thread')
     if executor.alternative:
         words.append(_alternative(executor))
+    if executor.import_caught:
+        words.append('import caught')
     return ' '.join(words) + (' UNRESOLVED' if executor.unresolved else '')
 
 

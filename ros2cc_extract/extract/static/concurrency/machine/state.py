@@ -192,6 +192,7 @@ class ConcurrentWorld(World):
     :param writes_beside: data that the set-up writes when it has started a thread, or has spun.
     :param cleared: events that code clears: which and where, and how many entities there were.
     :param by_loop: a loop of asyncio does what is followed, in its own thread.
+    :param cancelled: where futures are cancelled, by where they are made.
     :param loop_runs: what runs one; ``loop_touches`` what is done to what belongs to one, and
         ``awaited_of_loops`` the queues and events that some coroutine awaits.
     :param lost_wakes: what ends waits for an attribute of that name of what is not known.
@@ -250,6 +251,7 @@ class ConcurrentWorld(World):
     by_loop: bool = False
     loop_runs: list[LoopRun] = field(default_factory=list)
     loop_touches: list[LoopTouch] = field(default_factory=list)
+    cancelled: dict[Place, Place] = field(default_factory=dict)
     awaited_of_loops: list[Value] = field(default_factory=list)
     lost_wakes: dict[tuple[str, Word], list[Place]] = field(default_factory=dict)
     given: dict[int, Unknown] = field(default_factory=dict)

@@ -167,6 +167,8 @@ def cancel(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     One whose answer has not come has no executor yet.
     """
     machine.note_wake(receiver, Word.SET, call.place)
+    if isinstance(receiver, Instance):
+        machine.world.cancelled.setdefault(receiver.place, call.place)
     if isinstance(receiver, Instance) and not _has_executor(receiver):
         _run_all(machine, receiver, call.place, is_sure=False)
     return NONE

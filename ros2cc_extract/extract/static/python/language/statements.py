@@ -48,6 +48,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Class,
     Function,
     Instance,
+    Library,
     Module,
     Mystery,
     Native,
@@ -272,6 +273,7 @@ def _class(machine: Statements, node: ast.ClassDef, frame: Frame) -> int:
 def _import(machine: Statements, node: ast.Import, frame: Frame) -> int:
     for alias in node.names:
         module = machine.import_module(alias.name, frame.place(node))
+        _note_import(machine, module)
         if alias.asname is None:
             top = alias.name.partition('.')[0]
             module = machine.import_module(top, frame.place(node))
@@ -289,8 +291,20 @@ def _import_from(machine: Statements, node: ast.ImportFrom, frame: Frame) -> int
             _import_star(machine, module, frame)
             continue
         value = machine.imported(module, name, alias.name, place)
+        _note_import(machine, value)
         machine.assign(ast.Name(alias.asname or alias.name, ast.Store()), value, frame)
     return NEXT
+
+
+_IMPORT_ERRORS = frozenset({'ImportError', 'ModuleNotFoundError', 'Exception', 'BaseException'})
+
+
+def _note_import(machine: Statements, value: Value) -> None:
+    """Whether the program goes on without a part of a library that is not there."""
+    if isinstance(value, Library):
+        known = machine.world.caught_imports
+        is_caught = any(not _IMPORT_ERRORS.isdisjoint(names) for names in machine.world.caught)
+        known[value.name] = known.get(value.name, True) and is_caught
 
 
 def _import_star(machine: Statements, module: Value, frame: Frame) -> None:

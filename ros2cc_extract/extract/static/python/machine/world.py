@@ -122,6 +122,7 @@ class World:
         were at work already.
     :param trying: running calls and open branches directly in a ``try`` for a ``TypeError``.
     :param caught: the exceptions that each ``try`` around catches, outermost first, as written.
+    :param caught_imports: of parts of libraries, whether each import of it is in such a ``try``.
     :param met: the objects that the running callback found in what others assign.
     :param met_by: the same of each callback that was followed, by the identity of its entity.
     :param rounds: how often it was followed again for others.
@@ -193,6 +194,7 @@ class World:
     stored_late: set[tuple[Value, str]] = field(default_factory=set)
     trying: tuple[int, int] | None = None
     caught: tuple[frozenset[str], ...] = ()
+    caught_imports: dict[str, bool] = field(default_factory=dict)
     met: dict[tuple[Heaped, str], frozenset[object]] = field(default_factory=dict)
     met_by: dict[int, dict[tuple[Heaped, str], frozenset[object]]] = field(default_factory=dict)
     rounds: Counter[int] = field(default_factory=Counter)

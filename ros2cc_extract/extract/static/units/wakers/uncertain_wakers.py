@@ -10,6 +10,7 @@ runs once only, which a condition forgets if nothing waits yet. Sources: rclpy 7
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications import (
     Notifier,
@@ -288,3 +289,13 @@ def _comes_again(world: RosWorld, doer: Doer) -> bool:
         return doer.loops
     is_plain = not doer.one_shot and not doer.destroyed and doer.kind not in _ONCE
     return is_plain and not any(e.doer is doer and e.kind != RAISES for e in world.ends)
+
+
+def unless_cancelled(wait: Blocking, doer: object, world: RosWorld) -> Blocking:
+    """To cancel a task of a loop ends what it awaits; the model does not have that."""
+    place = None
+    if isinstance(doer, EntityState) and doer.kind is EntityKind.TASK:
+        place = world.cancelled.get(doer.place)
+    if place is None or not wait.suspends or wait.is_timed or wait.escapes is not None:
+        return wait
+    return replace(wait, escapes=Unknown('its task may be cancelled', place))

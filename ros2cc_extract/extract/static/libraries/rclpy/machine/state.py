@@ -144,6 +144,7 @@ class EntityState(Doer, LibraryState):
     :param part_of: the subscription whose event it handles.
     :param called_under: the lock that a library holds while it calls one of the functions;
         ``None`` where it depends on the caller.
+    :param cancelled: some code cancels it.
     :param dormant: where it is made so that it does not start by itself, or is cancelled at once.
     :param restarted: somebody starts it, or starts it again.
     :param takes_info: a function of it needs what only some releases pass (``unfit_callbacks``).
@@ -171,6 +172,7 @@ class EntityState(Doer, LibraryState):
     builtin: bool = False
     destroyed: bool = False
     one_shot: bool = False
+    cancelled: bool = False
     dormant: Place | None = None
     restarted: bool = False
     takes_info: bool = False

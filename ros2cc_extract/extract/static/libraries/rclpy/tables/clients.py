@@ -98,6 +98,7 @@ def _cancel(machine: RosMachine, receiver: Value, call: Call) -> Value:
     world, entity = machine.world, receiver.state
     if not isinstance(entity, EntityState):
         return NONE
+    entity.cancelled = True
     if entity is world.current:
         if world.path == world.callback_path:
             entity.one_shot = True

@@ -245,7 +245,7 @@ def record_spin(
 
 def _is_the_same(spin: Spin, other: Spin) -> bool:
     """Whether one text is met again that makes an executor for a node that is there already."""
-    made_anew = spin.executor is not other.executor
+    made_anew = spin.executor is not other.executor and spin.executor.cls is other.executor.cls
     same_text = (spin.place, spin.executor.place) == (other.place, other.executor.place)
     return made_anew and same_text and bool(spin.nodes) and spin.nodes == other.nodes
 
