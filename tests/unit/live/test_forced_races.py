@@ -93,4 +93,4 @@ def test_what_comes_often_is_kept_out_until_the_other_side_is_held(rows: Any) ->
 
 
 def test_a_side_that_is_kept_out_does_not_come_past_a_lock(rows: Any) -> None:
-    assert not [each for each in rows('on_beat_under', 'check_under', threading.Lock())]
+    assert not rows('on_beat_under', 'check_under', threading.Lock())
