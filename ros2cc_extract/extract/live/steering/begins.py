@@ -133,12 +133,13 @@ class Running:
 
     def taken(self, entity: Any) -> None:
         """A spin has taken it, to run it here or in a thread of its pool."""
-        is_answer = type(entity).__name__ == 'Client'
+        is_answer = type(entity).__name__ in ('Client', 'ActionClient')
         if not self._director.plan.points or not (is_of_program(entity) or is_answer):
             return
         found = self._director.point_of(sys._getframe(1))
         if found is not None and _is_in_callback(found[1]):
             name = f'the answer of {name_of(entity)}' if is_answer else _name(entity)
+            self._director.taken_inside()
             self._report.write('nested', point=found[0], name=name)
 
 
