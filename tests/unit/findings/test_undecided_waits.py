@@ -19,7 +19,8 @@ from finding_units import (
     unit,
 )
 
-from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.findings.collect import findings_of
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import ANSWER_LOOP, OUTSIDE, TIME, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Spec
 
@@ -207,3 +208,33 @@ def test_it_ends_where_the_future_is_asked_or_a_timer_is_served_or_its_time_is_o
     once = replace(timer('feed'), one_shot=True)
     assert found(replace(spun_until(once), rclpy='3.3.22')) == ['CC120:40 note']
     assert found(replace(spun_until(once, seconds=1.0), rclpy='3.3.22')) == []
+
+
+def test_functions_of_one_file_that_nobody_calls_are_told_together() -> None:
+    (wait,) = calls(None, call='busy wait')
+    uncalled = [
+        replace(
+            wait,
+            resource=f'client_{name}',
+            source=Place(file, line, 1),
+            escapes=Unknown(f'no known code calls {name}'),
+        )
+        for file, line, name in (
+            ('arm.py', 3, 'home'),
+            ('arm.py', 5, 'lift'),
+            ('arm.py', 7, 'open'),
+            ('arm.py', 9, 'shut'),
+            ('base.py', 4, 'turn'),
+        )
+    ]
+    spec = replace(unit(threads(2), timer('feed')), set_up=tuple(uncalled))
+    arm, base = findings_of([spec], [], [None])
+    assert arm.message == (
+        'not decided: home, lift, open and 1 more may wait, here in a busy loop for client_home, '
+        'and no known code calls them'
+    )
+    assert [each.place.line for each in arm.related] == [5, 7, 9]
+    assert base.message == (
+        'not decided: turn may wait, here in a busy loop for client_turn, and no known code '
+        'calls it'
+    )

@@ -12,6 +12,7 @@ from ros2cc_extract.findings.base.wording import listing, plural, shown
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts, unexplained
 from ros2cc_extract.findings.waits.exhausted_permits import is_used_up
 from ros2cc_extract.findings.waits.stuck_callbacks import stuck_in
+from ros2cc_extract.findings.waits.uncalled_waits import is_uncalled, uncalled_hits
 from ros2cc_extract.findings.waits.verdicts import PROGRESS, refuting_run, surely_ends, verdict_on
 from ros2cc_extract.findings.waits.waits import (
     AnyWait,
@@ -90,7 +91,9 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
         for wait in _not_proven(context):
             waits.append(wait)
             reasons[id(wait)] = open_facts(context)
-        for wait in _of_set_up(context):
+        set_up = list(_of_set_up(context))
+        yield from uncalled_hits(filter(is_uncalled, set_up), _set_up(context).name)
+        for wait in (each for each in set_up if not is_uncalled(each)):
             waits.append(wait)
             reasons[id(wait)] = _reason(wait.block)
         for wait in _late(context):
