@@ -1,4 +1,4 @@
-"""A loop that each way through its body leaves has no second round, and waits for nothing."""
+"""Loops that wait for nothing: each way through the body leaves them, or each round ends them."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import pytest
 from ros2cc_extract.extract.static.api import scan_text
 
 PROGRAM = """
+import copy
 import threading
 import time
 from contextlib import suppress
@@ -16,6 +17,7 @@ from contextlib import suppress
 import rclpy
 from rclpy.node import Node
 from std_srvs.srv import Trigger
+from grid_msgs.msg import Grid
 
 
 class Asker(Node):
@@ -24,9 +26,16 @@ class Asker(Node):
         self.client = self.create_client(Trigger, 'state')
         self.ready = False
         self.lock = threading.Lock()
+        self.grid = None
+        self.create_subscription(Grid, 'grid', self.on_grid, 10)
         self.create_timer(1.0, self.tick)
 
+    def on_grid(self, msg):
+        self.grid = msg
+
     def tick(self):
+        grid = copy.deepcopy(self.grid)
+        grid.rows = list(grid.rows)
         self.future = self.client.call_async(Trigger.Request())
 {loop}
 
@@ -57,8 +66,10 @@ ONE_ROUND = [
     'while not self.future.done():\n    with self.lock:\n        raise RuntimeError',
     'while not self.future.done():\n    try:\n        return\n    finally:\n        print()',
     'while not self.ready:\n    for each in range(3):\n        continue\n    break',
+    'while len(grid.rows) < len(grid.names):\n    grid.rows.append(0.0)',
 ]
 MORE_ROUNDS = [
+    'while len(grid.rows) < 3:\n    if self.ready:\n        grid.rows.append(0.0)',
     'while not self.future.done():\n    if self.ready:\n        break',
     'while not self.future.done():\n    try:\n        return\n    except Exception:\n        pass',
     'while not self.ready:\n    if self.future.done():\n        continue\n    break',
