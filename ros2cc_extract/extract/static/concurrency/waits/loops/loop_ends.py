@@ -28,6 +28,7 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Effect
 from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
     Bound,
     Const,
     Function,
@@ -45,6 +46,7 @@ _OF_COLLECTIONS = frozenset(
 _GROWING = frozenset(
     ['append', 'appendleft', 'extend', 'insert', 'add', 'pop', 'popleft', 'popitem']
 )
+_OF_OWNERS = (ast.Attribute, ast.Subscript)
 _ASKING = (ast.Call, ast.Await, ast.NamedExpr, ast.Yield, ast.YieldFrom)
 
 
@@ -209,6 +211,14 @@ def _evaluated(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> tupl
         return options_of(machine.evaluate(node, frame))
     finally:
         world.effects = noted
+
+
+def asked_of_none(
+    machine: ConcurrentMachine, tests: Iterable[ast.expr], frame: Frame
+) -> ast.expr | None:
+    """What is ``None`` for all that is known while a test asks it for more: that raises."""
+    asked = (part.value for test in tests for part in walk(test) if isinstance(part, _OF_OWNERS))
+    return next((each for each in asked if _evaluated(machine, each, frame) == (NONE,)), None)
 
 
 def _looks(machine: ConcurrentMachine, value: ast.expr, frame: Frame) -> bool:
