@@ -116,11 +116,11 @@ def _has_timed_waits(effects: EffectLog, first: int, attempt: ast.Try, frame: Fr
 def _asks_outside(
     machine: ConcurrentMachine, effects: EffectLog, first: int, attempt: ast.Try, frame: Frame
 ) -> bool:
-    """Whether the attempt waits for somebody outside, as a person, who makes it succeed."""
+    """Whether the attempt waits without a time-out for somebody outside, as a person."""
     rows = (
         machine.model.waits.get(block.call)
         for block in effects.blocking[first:]
-        if _stands_in(block, attempt, frame)
+        if block.seconds is None and _stands_in(block, attempt, frame)
     )
     return any(row is not None and OUTSIDE in row.always for row in rows)
 
