@@ -32,6 +32,9 @@ UNKNOWN_WAIT = 'unknown wait'
 NOT_FOLLOWED = 'code that is not followed'
 """The rest of what is too long to be followed, or too late: there may be any wait in it."""
 
+UNCALLED = 'no known code calls '
+"""Why a wait is left open that stands in a function which follows by name."""
+
 WORKING_LOOP = 'working loop'
 """A loop in which a thread works until it is ended: only its end is waited for."""
 

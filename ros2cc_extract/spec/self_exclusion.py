@@ -1,10 +1,22 @@
-"""Callbacks that see to it themselves that only one of their runs waits."""
+"""Callbacks of which only one run waits: they see to it themselves, or run once."""
 
 from __future__ import annotations
 
 from ros2cc_extract.spec.effects import Access
-from ros2cc_extract.spec.model import Callback, EntityKind, GroupType, Spec
+from ros2cc_extract.spec.model import Callback, EntityKind, GroupType, Spec, When
 from ros2cc_extract.spec.program_order import steps
+
+
+def is_made_once(callback: Callback) -> bool:
+    """
+    True for a task that is made at one known place, once, before anything spins: it runs once.
+
+    Source: rclpy 7.1.6 and 9.1.2, ``executors.py`` (``create_task``, ``_wait_for_ready_callbacks``
+    forgets a task that is done).
+    """
+    is_task = callback.entity in (EntityKind.TASK, EntityKind.DONE_CALLBACK)
+    is_one = callback.when is When.START and callback.count == 1
+    return is_task and is_one and callback.source is not None
 
 
 def lets_one_wait(callback: Callback) -> bool:

@@ -46,6 +46,18 @@ _CALL = """\
     def tell(self, request, response):
         return response
 """
+_TASK = """\
+    def __init__(self):
+        super().__init__('crowd')
+        self.given = threading.Event()
+        self.create_timer(1.5, self.tell, callback_group=MutuallyExclusiveCallbackGroup())
+
+    def ask(self):
+        self.given.wait()
+
+    def tell(self):
+        self.given.set()
+"""
 _PROGRAM = """\
 import threading
 import time
@@ -88,6 +100,14 @@ def _program(body: str, group: str, threads: int, **names: str) -> str:
     )
 
 
+def _with_tasks(tasks: int) -> str:
+    """Tasks that are made before the spin, on two threads."""
+    made = ''.join('    executor.create_task(crowd.ask)\n' for _ in range(tasks))
+    added = '    executor.add_node(Crowd())\n'
+    crowd = f'    crowd = Crowd()\n    executor.add_node(crowd)\n{made}'
+    return _program(_TASK, '', 2).replace(added, crowd)
+
+
 HANG = {
     'event': _program(_EVENT, _ANY, 2, **_EVENTS),
     'event_on_six_threads': _program(_EVENT, _ANY, 6, **_EVENTS),
@@ -95,10 +115,12 @@ HANG = {
     'call': _program(_CALL, _ANY, 2),
     'lock_on_one_thread': _program(_LOCK, _ANY, 1),
     'lock_on_three_threads': _program(_LOCK, _ANY, 3),
+    'two_tasks': _with_tasks(2),
 }
 END = {
     'event': _program(_EVENT, _ONE_BY_ONE, 2, **_EVENTS),
     'call': _program(_CALL, _ONE_BY_ONE, 2),
     'lock_on_one_thread': _program(_LOCK, _ONE_BY_ONE, 1),
     'lock_on_three_threads': _program(_LOCK, _ONE_BY_ONE, 3),
+    'one_task': _with_tasks(1),
 }

@@ -15,8 +15,8 @@ from collections.abc import Mapping, Sequence
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.waits.one_shot_timers import cancels_too_late
 from ros2cc_extract.light_dataclasses import dataclass
-from ros2cc_extract.spec.model import Callback, EntityKind, When
-from ros2cc_extract.spec.self_exclusion import admits_one, lets_one_wait
+from ros2cc_extract.spec.model import Callback
+from ros2cc_extract.spec.self_exclusion import admits_one, is_made_once, lets_one_wait
 
 Key = tuple[str, str, int]
 Matching = dict[Key, tuple[Key, int]]
@@ -88,11 +88,8 @@ def can_overlap_itself(callback: Callback, context: Context) -> bool:
 
 
 def _runs_once(callback: Callback) -> bool:
-    """A task that is made at one known place, once, before anything spins, has no second run."""
-    is_task = callback.entity in (EntityKind.TASK, EntityKind.DONE_CALLBACK)
-    made_once = callback.when is When.START and callback.count == 1 and callback.source is not None
     is_one_shot = callback.one_shot and not cancels_too_late(callback)
-    return is_one_shot or (is_task and made_once)
+    return is_one_shot or is_made_once(callback)
 
 
 def _copies(callback: Callback, context: Context) -> int:

@@ -8,7 +8,7 @@ from ros2cc_extract.generator.build import Family, Profile, Query
 from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind
 from ros2cc_extract.generator.waits import waits_of
 from ros2cc_extract.spec.model import Callback, GroupType, Spec
-from ros2cc_extract.spec.self_exclusion import admits_one, lets_one_wait
+from ros2cc_extract.spec.self_exclusion import admits_one, is_made_once, lets_one_wait
 
 TWO_ARRIVALS = 2
 
@@ -45,7 +45,9 @@ def crowding(spec: Spec) -> Mapping[str, int]:
 def _runs_to_fill(threads: int, callback: Callback, spec: Spec) -> int:
     if spec.group_of(callback).type is not GroupType.REENTRANT:
         return 1
-    if callback.one_shot or lets_one_wait(callback) or admits_one(callback, spec):
+    if callback.one_shot or is_made_once(callback):
+        return 1
+    if lets_one_wait(callback) or admits_one(callback, spec):
         return 1
     waits = [wait for wait in waits_of(callback, spec) if not wait.is_signal]
     if any(wait.frees_thread and wait.held for wait in waits):

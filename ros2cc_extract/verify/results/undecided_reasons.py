@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ros2cc_extract.generator.program_steps import NamedWait
 from ros2cc_extract.generator.waits import actors_of, waits_of
@@ -15,19 +15,31 @@ def doubts_in(run: Evidence, spec: Spec) -> str:
     """Say what unknown facts a run that refutes a claim rests on."""
     steps = {actor.name: tuple(waits_of(actor, spec)) for actor in actors_of(spec)}
     events = (event for moment in run.moments for event in moment.events)
-    return ', '.join(dict.fromkeys(words for event in events for words in _doubts(event, steps)))
+    places: dict[str, dict[str, None]] = {}
+    for words, at in (doubt for event in events for doubt in _doubts(event, steps)):
+        places.setdefault(words, {}).update(dict.fromkeys(at))
+    return ', '.join(words + _at(all_of) for words, all_of in places.items())
 
 
-def _doubts(event: Event, steps: dict[str, tuple[NamedWait, ...]]) -> Iterator[str]:
+def _at(places: Iterable[str]) -> str:
+    known = ' or '.join(places)
+    return f' at {known}' if known else ''
+
+
+def _doubts(
+    event: Event, steps: dict[str, tuple[NamedWait, ...]]
+) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """What is not known, and at which places."""
     own = steps.get(event.who or '', ())
     if event.wait is None or event.wait >= len(own):
         return
     step = own[event.wait]
     if event.is_wait and step.is_open:
-        yield f'it is not known whether {_wait(step)} ends{_reason(step)}'
+        yield f'it is not known whether {_wait(step)} ends{_reason(step)}', ()
     elif event.kind == 'silence':
-        at = f' at {step.waker.source}' if step.waker is not None and step.waker.source else ''
-        yield f'it is not known whether {event.who} always signals {event.resource}{at}'
+        place = step.waker.source if step.waker is not None else None
+        at = (str(place),) if place is not None else ()
+        yield f'it is not known whether {event.who} always signals {event.resource}', at
 
 
 def _wait(step: NamedWait) -> str:

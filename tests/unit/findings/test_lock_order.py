@@ -82,3 +82,14 @@ def test_a_lock_taken_twice_is_one_finding_however_often() -> None:
     assert [f for f in found(spec) if f.startswith('CC111')] == ['CC111:41']
     (where, *_) = only(spec, 'CC111').related
     assert (where.place, where.text) == (at(40), 'a is taken here')
+
+
+def test_a_lock_that_was_given_back_in_between_is_shown_where_it_is_held() -> None:
+    def taking(line: int, *chain: int, held: tuple[str, ...] = ()) -> Act:
+        return Act(name='a', source=at(line), chain=tuple(map(at, chain)), held=held)
+
+    once, again = taking(40), taking(50, 42)
+    third = taking(60, 42, 52, held=('a',))
+    spec = unit(ONE_THREAD, timer('tick', locks=(once, again, third)))
+    finding = only(spec, 'CC111')
+    assert [each.place for each in finding.related if 'taken' in each.text] == [at(50)]

@@ -493,6 +493,9 @@ def test_a_group_in_which_nothing_is() -> None:
     assert found(replace(with_empty, unresolved=(hole,))) == ['CC501:3 note']
     assert 'CC404:7 warning' in found(replace(with_empty, unresolved=(HOLE,)))
     assert FREE.name not in {group.name for group in with_empty.groups}
+    more = exclusive('forgotten_2', source=at(7))
+    both = replace(with_empty, groups=(*with_empty.groups, more))
+    assert only(both, 'CC404').message == 'no callback uses any of the 2 groups made here'
 
 
 def diagnostic(slug: str, severity: Severity) -> Diagnostic:

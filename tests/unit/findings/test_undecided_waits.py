@@ -19,9 +19,14 @@ from finding_units import (
     unit,
 )
 
-from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.findings.collect import findings_of
+from ros2cc_extract.generator.build import Profile
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.effects import ANSWER_LOOP, OUTSIDE, TIME, Act, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind, Callback, Spec
+from ros2cc_extract.verify.search.options import Options
+from ros2cc_extract.verify.unit import verify_unit
 
 
 def test_a_wait_whose_end_nobody_knows_is_told() -> None:
@@ -207,3 +212,52 @@ def test_it_ends_where_the_future_is_asked_or_a_timer_is_served_or_its_time_is_o
     once = replace(timer('feed'), one_shot=True)
     assert found(replace(spun_until(once), rclpy='3.3.22')) == ['CC120:40 note']
     assert found(replace(spun_until(once, seconds=1.0), rclpy='3.3.22')) == []
+
+
+def test_functions_of_one_file_that_nobody_calls_are_told_together() -> None:
+    (wait,) = calls(None, call='busy wait')
+    uncalled = [
+        replace(
+            wait,
+            resource=f'client_{name}',
+            source=Place(file, line, 1),
+            escapes=Unknown(f'no known code calls {name}'),
+        )
+        for file, line, name in (
+            ('arm.py', 3, 'home'),
+            ('arm.py', 5, 'lift'),
+            ('arm.py', 7, 'open'),
+            ('arm.py', 9, 'shut'),
+            ('base.py', 4, 'turn'),
+        )
+    ]
+    spec = replace(unit(threads(2), timer('feed')), set_up=tuple(uncalled))
+    arm, base = findings_of([spec], [], [None])
+    assert arm.message == (
+        'not decided: home, lift, open and 1 more may wait, here in a busy loop for client_home, '
+        'and no known code calls them'
+    )
+    assert [each.place.line for each in arm.related] == [5, 7, 9]
+    assert base.message == (
+        'not decided: turn may wait, here in a busy loop for client_turn, and no known code '
+        'calls it'
+    )
+
+
+def test_an_answer_that_a_branch_may_not_pass_on_is_told_once() -> None:
+    (wait,) = calls('moving', call='polling loop')
+    maybe = (Waker(by='pose', conditional=True),)
+    wait = replace(wait, on=None, resource='moving', answer_to='rotate', wakers=maybe)
+    spec = unit(threads(2), timer('turn', blocking=(wait,)), subscription('pose', 'other'))
+    verification = verify_unit(close(spec), Options(profile=Profile.RCLPY))
+    assert found(spec, verification) == ['CC120:40 note']
+
+
+def test_a_loop_without_end_is_said_to_go_on() -> None:
+    (wait,) = calls(None, call='endless loop')
+    wait = replace(wait, escapes=Unknown('nothing but the end of the program ends the loop'))
+    finding = only(unit(threads(2), timer('feed', blocking=(wait,))), 'CC120')
+    assert finding.message == (
+        'not decided: feed waits in a loop without end, and only an exception or the end of the '
+        'program ends it'
+    )

@@ -236,6 +236,15 @@ def test_a_signal_in_a_branch_leaves_open_what_needs_it():
     assert said(unit(f'drive a: {maybe}\ntick b')) == [f'deadlock: {SILENT}', f'drive: {SILENT}']
 
 
+def test_two_branches_that_may_both_be_skipped_are_one_doubt():
+    one = 'by: tick, conditional: true, source: arm.py:9'
+    maybe = blocking(wait('done', one, one.replace('9', '12')))
+    assert said(unit(f'drive a: {maybe}\ntick b')) == [
+        f'deadlock: {SILENT} or arm.py:12',
+        f'drive: {SILENT} or arm.py:12',
+    ]
+
+
 def test_a_hang_that_needs_no_skipped_branch_is_proven():
     maybe = blocking(wait('done', 'by: tick, conditional: true'))
     assert said(unit(f'drive a: {maybe}\ntick a')) == ['deadlock', 'drive']

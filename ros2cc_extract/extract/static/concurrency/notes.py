@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops import (
     polling_loops,
     set_up_loops,
 )
+from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import goes_round
 from ros2cc_extract.extract.static.program.text_queries import is_recursion
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -97,12 +98,16 @@ class Notes(Effects):
 
     def begin_loop(self, node: ast.While, frame: Frame, implied: Implied | None) -> object:
         """A loop may do nothing but wait."""
+        if not goes_round(node):
+            return None
         before = polling_loops.mark(self)
         polling_loops.begin(self, node, frame, implied)
         return before
 
     def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:
         """After one round it shows what the loop waits for."""
+        if not goes_round(node):
+            return
         if begun is None:
             set_up_loops.note(self, node, frame)
             return

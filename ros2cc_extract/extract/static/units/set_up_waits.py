@@ -29,7 +29,7 @@ from ros2cc_extract.extract.static.units.waits import UnitWaits
 from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import spun_beside
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import OUTSIDE, TIME, Blocking, Needs
+from ros2cc_extract.spec.effects import OUTSIDE, TIME, UNCALLED, Blocking, Needs
 
 _UNSPUN = 'no known code spins {node} meanwhile'
 _NOBODY = 'no known code ends it'
@@ -132,7 +132,7 @@ class _SetUpWaits:
         if reasons and is_met:
             return None
         if wait.uncalled:
-            return f'no known code calls {wait.uncalled}'
+            return f'{UNCALLED}{wait.uncalled}'
         stuck_ones = [each for each in unserved if each is not None]
         if stuck_ones and self._is_sure(stuck_ones, len(reasons), block, wait):
             self.world.diagnostics.append(_never(block, stuck_ones[0]))

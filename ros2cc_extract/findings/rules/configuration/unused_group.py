@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.rules.configuration.groups_on_one_thread import is_made
+from ros2cc_extract.source_locations import Place
 
 _HIDING = frozenset({'entities', 'group', 'function', 'node'})
 """Facts that may hide an entity, or which group one is in, where they are missing."""
@@ -17,14 +18,23 @@ def find(context: Context) -> Iterator[Hit]:
     if any(fact.fact in _HIDING for fact in context.unit.unresolved):
         return
     used = {callback.group for callback in context.unit.callbacks}
+    unused: dict[Place, list[str]] = {}
     for group in context.unit.groups:
         if group.name not in used and is_made(group) and group.source is not None:
-            yield Hit(
-                place=group.source,
-                message=f'no callback uses group {group.name!r}',
-                help='pass it as callback_group, or leave it out',
-                subjects=(group.name,),
-            )
+            unused.setdefault(group.source, []).append(group.name)
+    for place, names in unused.items():
+        yield _hit(place, names)
+
+
+def _hit(place: Place, names: Sequence[str]) -> Hit:
+    """One for all groups that one line makes, as that of a class of several nodes."""
+    what = f'any of the {len(names)} groups made here' if names[1:] else f'group {names[0]!r}'
+    return Hit(
+        place=place,
+        message=f'no callback uses {what}',
+        help='pass it as callback_group, or leave it out',
+        subjects=tuple(names),
+    )
 
 
 RULE = Rule(

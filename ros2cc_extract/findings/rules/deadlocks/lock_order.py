@@ -15,6 +15,7 @@ from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Act
 from ros2cc_extract.spec.model import Activity
+from ros2cc_extract.spec.program_order import steps as way_of
 from ros2cc_extract.verify.results.evidence import Evidence
 
 
@@ -113,14 +114,19 @@ def _taken_twice(step: Step) -> Hit:
 
 
 def _where_held(step: Step) -> tuple[Remark, ...]:
-    """The place where the lock was taken before, and the callback."""
-    before = [
-        act.source
-        for act in step.doer.locks
-        if act.name == step.held and act.source and act != step.act
+    """The last place where the lock was taken before, in a function that goes on; the callback."""
+    takings = [
+        act for act in step.doer.locks if act.name == step.held and act.source and act != step.act
     ]
-    first = (Remark(before[0], f'{step.held} is taken here'),) if before else ()
+    around = [act for act in takings if _goes_on_around(act, step.act)] or takings[:1]
+    last = max(around, key=way_of, default=None)
+    first = (Remark(last.source, f'{step.held} is taken here'),) if last and last.source else ()
     return (*first, *made_at(step.doer))
+
+
+def _goes_on_around(outer: Act, inner: Act) -> bool:
+    """Whether the function that does the one still runs when the other is done."""
+    return outer.chain == inner.chain[: len(outer.chain)] and way_of(outer) < way_of(inner)
 
 
 def _crossed(one: Step, other: Step, run: Evidence | None) -> Hit:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.model import Remark
-from ros2cc_extract.findings.base.rule import Context, Hit, Rule
+from ros2cc_extract.findings.base.rule import Context, Doer, Hit, Rule
 from ros2cc_extract.findings.base.wording import listing, plural, shown
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts, unexplained
 from ros2cc_extract.findings.waits.exhausted_permits import is_used_up
 from ros2cc_extract.findings.waits.stuck_callbacks import stuck_in
+from ros2cc_extract.findings.waits.uncalled_waits import is_uncalled, uncalled_hits
 from ros2cc_extract.findings.waits.verdicts import PROGRESS, refuting_run, surely_ends, verdict_on
 from ros2cc_extract.findings.waits.waits import (
     AnyWait,
@@ -90,14 +91,16 @@ def _hits(context: Context, *, is_outside: bool) -> Iterator[Hit]:
         for wait in _not_proven(context):
             waits.append(wait)
             reasons[id(wait)] = open_facts(context)
-        for wait in _of_set_up(context):
+        set_up = list(_of_set_up(context))
+        yield from uncalled_hits(filter(is_uncalled, set_up), _set_up(context).name)
+        for wait in (each for each in set_up if not is_uncalled(each)):
             waits.append(wait)
             reasons[id(wait)] = _reason(wait.block)
         for wait in _late(context):
             waits.append(wait)
             reasons[id(wait)] = _ENDS_LATE
     else:
-        for wait in _for_messages(context):
+        for wait in _for_messages(context, ends):
             waits.append(wait)
             reasons[id(wait)] = ''
     spins = [] if is_outside else [wait for wait in waits if wait.kind in _SPINS]
@@ -161,19 +164,28 @@ def _named(wait: AnyWait) -> str:
     return f' for {what}' if what else ''
 
 
-def _for_messages(context: Context) -> Iterator[AnyWait]:
+def _for_messages(context: Context, ends: Mapping[str, Sequence[OpenEnd]]) -> Iterator[AnyWait]:
     """
     Waits for messages from another process: answers, and what nothing here can send meanwhile.
 
     No error shows a lost message, or a missing listener. If the model refutes the wait
-    anyhow, that is reported.
+    anyhow, or doubts its end for another reason, that is reported.
     """
     for caller in context.doers:
         if refuting_run(PROGRESS, context, caller) is None:
+            is_told = _is_in_doubt(caller, ends[caller.name], context)
             for block in caller.blocking:
                 is_for_one = block.answer_to is not None or block.unsent is not None
-                if is_for_one and block.escapes is None:  # else it is reported as undecided
+                is_open = block.escapes is not None or (is_told and block.seconds is None)
+                if is_for_one and not is_open:  # else it is reported as undecided
                     yield AnyWait(caller, block, kind_of(block))
+
+
+def _is_in_doubt(caller: Doer, ends: Sequence[OpenEnd], context: Context) -> bool:
+    """Whether each wait of ``caller`` that has no time-out is reported, for one doubt."""
+    result = verdict_on(PROGRESS, context, caller)
+    is_undecided = result is not None and result.verdict is Verdict.UNDECIDED and result.in_doubt
+    return is_undecided and all(_ends_outside(end.block) for end in ends)
 
 
 def _open(blocking: Sequence[Blocking], ends: Sequence[OpenEnd]) -> Iterator[tuple[Blocking, str]]:
@@ -196,6 +208,8 @@ def _why(block: Blocking) -> str:
 
 def _call_and_reason(wait: AnyWait, reason: str) -> tuple[str, str]:
     """Where it waits, and why that is open: the reason of an unknown call begins with the call."""
+    if wait.block.call == ENDLESS_LOOP:
+        return 'a loop without end', 'only an exception or the end of the program ends it'
     call, colon, why = _why(wait.block).partition(': ')
     if wait.block.call != UNKNOWN_WAIT or not colon or not reason.endswith(why):
         return waits_in(wait), reason

@@ -289,3 +289,16 @@ def test_a_constructor_that_waits_for_data_before_the_spin_waits_forever(
     text = SET_UP.format(loop=textwrap.indent(textwrap.dedent(loop).strip(), ' ' * 8))
     (found,) = scan_text(text).diagnostics
     assert (found.slug, found.severity.value, found.place.line) == ('nobody-spins', 'error', line)
+
+
+@pytest.mark.parametrize('test', ['not self.pilot.reached', "self.pilot['reached'] is None"])
+def test_what_is_none_for_all_that_is_known_raises_and_is_left_open(test: str) -> None:
+    (wait,) = _waits('self.pilot = None', 'self.pose = msg', _while(test))
+    assert wait.call == 'polling loop'
+    assert wait.escapes is not None
+    assert wait.escapes.reason == 'self.pilot is None, so that the test raises an exception'
+
+
+def test_what_another_callback_makes_is_not_only_none() -> None:
+    (wait,) = _waits('self.pilot = None', 'self.pilot = Status()', _while('not self.pilot.phase'))
+    assert wait.escapes is None or 'is None' not in wait.escapes.reason

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from ros2cc_extract.extract.static.api import scan_text
 from tests.random_waits.suite import ENDS, FOUND, UNDECIDED, judge
 
 PROGRAM = """\
@@ -96,3 +97,11 @@ def test_a_handler_that_makes_room_sees_to_it_itself() -> None:
     full = AT_ONCE | {'made': 'queue.Queue(maxsize=2)', 'error': 'queue.Full'}
     full |= {'attempt': 'self.items.put_nowait(1)', 'retries': 'self.items.get_nowait()'}
     assert verdict(**full) == ENDS
+
+
+def test_what_a_person_types_again_and_again_is_that_wait_alone() -> None:
+    typed = ITEMS | {'attempt': "float(input('x: '))", 'error': 'ValueError'}
+    text = program(**typed)
+    (unit,) = scan_text(text).units
+    take = next(each for each in unit.callbacks if each.name == 'take')
+    assert [block.call for block in take.blocking if block.call != 'time.sleep'] == ['input']

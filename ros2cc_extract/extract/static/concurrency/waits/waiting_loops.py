@@ -16,6 +16,41 @@ _WAITING = _PASTIMES | {'spin_once', 'time', 'monotonic', 'now', 'get_clock', 'w
 _HARMLESS = _PASTIMES | {'error', 'append', 'len', 'str', 'time', 'monotonic', 'put', 'set'}
 
 
+def goes_round(loop: ast.While) -> bool:
+    """Whether there is a second round: not where each way through the body leaves the loop."""
+    return _falls_through(loop.body) or any(_continues(each) for each in loop.body)
+
+
+def _falls_through(body: Sequence[ast.stmt]) -> bool:
+    return not any(_leaves(each) for each in body)
+
+
+def _leaves(statement: ast.stmt) -> bool:
+    """Whether what stands behind it is never reached from it."""
+    if isinstance(statement, (ast.Break, ast.Return, ast.Raise)):
+        return True
+    if isinstance(statement, ast.If):
+        return not (_falls_through(statement.body) or _falls_through(statement.orelse))
+    if isinstance(statement, (ast.With, ast.AsyncWith)):
+        # A manager that is made here, as contextlib.suppress(), may go on behind an exception.
+        is_made = any(isinstance(item.context_expr, ast.Call) for item in statement.items)
+        return not (is_made or _falls_through(statement.body))
+    if isinstance(statement, ast.Try):
+        handled = (handler.body for handler in statement.handlers)
+        ways = ([*statement.body, *statement.orelse], *handled)
+        return not _falls_through(statement.finalbody) or not any(map(_falls_through, ways))
+    return False
+
+
+def _continues(part: ast.AST) -> bool:
+    """Whether it begins the next round; a loop or a function inside has rounds of its own."""
+    if isinstance(part, (ast.For, ast.AsyncFor, ast.While)):
+        return any(map(_continues, part.orelse))
+    if isinstance(part, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda)):
+        return False
+    return isinstance(part, ast.Continue) or any(map(_continues, ast.iter_child_nodes(part)))
+
+
 def awaits_each_round(loop: ast.While) -> bool:
     """Whether no round of ``loop`` ends without an ``await``, unless it leaves the loop."""
     return _awaits((loop.test,)) or _always_awaits(loop.body)

@@ -80,6 +80,8 @@ def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame
         index = loops.index_of(key, len(owner.items))
         if index is not None and owner.rest is None:
             return owner.items[index]
+        if index is not None and owner.others is None and key == Const(-1):
+            return owner.items[-1]  # it was put in last
         one_of_all = loops.any_of(owner) if index is None else None
         return one_of_all or machine.mystery('index that could not be followed', place, node)
     if isinstance(owner, Const) and isinstance(key, Const):

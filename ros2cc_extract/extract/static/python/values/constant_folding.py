@@ -13,6 +13,7 @@ from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequ
 from ros2cc_extract.extract.static.python.values.object_identity import Identity
 from ros2cc_extract.extract.static.python.values.values import (
     ABSENT,
+    Bound,
     Choice,
     Class,
     Const,
@@ -20,6 +21,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Instance,
     Module,
     Mystery,
+    Partial,
     Value,
 )
 
@@ -175,11 +177,21 @@ def compare(op: ast.cmpop, left: Value, right: Value) -> bool | None:
     if isinstance(left, Identity) and isinstance(right, Identity):
         one, other = left.thing.serial, right.thing.serial
         return bool(_COMPARE[type(op)](one, other)) if one != other else None
+    if isinstance(op, (ast.Eq, ast.NotEq)) and _are_constant_and_callable(left, right):
+        return isinstance(op, ast.NotEq)
     if isinstance(op, (ast.Eq, ast.NotEq)) and _is_sure(left) and _is_sure(right):
         same = _identical(left, right)
         if same is not None and not isinstance(left, (Sequence, Mapping)):
             return same if isinstance(op, ast.Eq) else not same
     return None
+
+
+def _are_constant_and_callable(left: Value, right: Value) -> bool:
+    """A method is no constant: ``self.on_news != None``."""
+    return any(
+        isinstance(one, Const) and isinstance(other, (Bound, Partial))
+        for one, other in ((left, right), (right, left))
+    )
 
 
 def _is_sure(value: Value) -> bool:

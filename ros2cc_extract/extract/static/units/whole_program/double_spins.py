@@ -72,6 +72,7 @@ def _by_callbacks(world: RosWorld) -> Iterator[Diagnostic]:
     for each in inside:
         for spin in world.spins.values():
             goes_on = spin.executor is each.executor and (spin.for_ever or spin.repeated)
+            goes_on = goes_on and _runs_beside(world, each.entity, spin)
             if goes_on and not exclusive(spin.path, each.entity.path):
                 is_same = _asks_the_same((spin.how, spin.timeout), (each.how, each.timeout))
                 other = f'it is spun by {spin.how} as well ({spin.place})'
@@ -102,6 +103,13 @@ def _owners(entity: EntityState) -> tuple[Instance, ...]:
     owner = entity.node.slots.get('__owner__')
     known = options_of(owner) if isinstance(owner, Value) else ()
     return tuple(each for each in known if isinstance(each, Instance))
+
+
+def _runs_beside(world: RosWorld, entity: EntityState, spin: Spin) -> bool:
+    """Whether the callback may run meanwhile: one thread ends a spin before it begins another."""
+    owners = _owners(entity)
+    serving = [each for each in world.spins.values() if each.executor in owners]
+    return not serving or any(each.thread != spin.thread for each in serving)
 
 
 def may_overlap(one: InsideSpin, other: InsideSpin) -> bool:

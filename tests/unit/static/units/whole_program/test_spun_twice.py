@@ -50,3 +50,54 @@ for node in (one, other):
 def test_one_text_that_two_threads_run_for_two_nodes(rest: str, lines: list[int]) -> None:
     found = scan_text(PROGRAM.format(rest=indent(rest, '    ').lstrip())).diagnostics
     assert [each.place.line for each in found if each.slug == 'executor-spun-twice'] == lines
+
+
+IN_CALLBACK = """
+import threading
+import rclpy
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+class Helper(Node):
+    def __init__(self):
+        super().__init__('helper')
+        self.client = self.create_client(Trigger, 'state')
+
+    def wait_for_others(self):
+        while True:
+            asked = self.client.call_async(Trigger.Request())
+            rclpy.spin_until_future_complete(self, asked)
+            if asked.result().success:
+                return
+
+class Boss(Node):
+    def __init__(self, helper):
+        super().__init__('boss')
+        self.helper = helper
+        self.create_timer(0.5, self.work)
+
+    def work(self):
+        self.helper.wait_for_others()
+
+def main():
+    rclpy.init()
+    helper = Helper()
+    {first}
+    boss = Boss(helper)
+    executor = MultiThreadedExecutor(num_threads=5)
+    executor.add_node(boss)
+    executor.spin()
+"""
+
+
+@pytest.mark.parametrize(
+    ('first', 'lines'),
+    [
+        ('helper.wait_for_others()', []),
+        ('threading.Thread(target=helper.wait_for_others).start()', [16]),
+    ],
+)
+def test_a_spin_of_the_set_up_is_over_when_callbacks_run(first: str, lines: list[int]) -> None:
+    found = scan_text(IN_CALLBACK.format(first=first)).diagnostics
+    assert [each.place.line for each in found if each.slug == 'executor-spun-twice'] == lines

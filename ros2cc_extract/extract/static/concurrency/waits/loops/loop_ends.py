@@ -28,6 +28,7 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Effect
 from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
     Bound,
     Const,
     Function,
@@ -42,6 +43,10 @@ _OF_TEXTS = frozenset(['strip', 'lower', 'upper', 'startswith', 'endswith', 'spl
 _OF_COLLECTIONS = frozenset(
     ['get', 'values', 'items', 'keys', 'count', 'index', 'copy', 'isdisjoint', 'issubset']
 )
+_GROWING = frozenset(
+    ['append', 'appendleft', 'extend', 'insert', 'add', 'pop', 'popleft', 'popitem']
+)
+_OF_OWNERS = (ast.Attribute, ast.Subscript)
 _ASKING = (ast.Call, ast.Await, ast.NamedExpr, ast.Yield, ast.YieldFrom)
 
 
@@ -133,6 +138,8 @@ def end_of(
 
 
 def _end_of(machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: Frame) -> End:
+    if _is_grown(test, loop):
+        return End.ITSELF
     asked: list[ast.expr] = [part for part in walk(test) if isinstance(part, _ASKING)]
     asked = [part for part in asked if not (is_neutral(part) or _only_looks(machine, part, frame))]
     changed = _changed_in(loop, owners(test))
@@ -144,6 +151,24 @@ def _end_of(machine: ConcurrentMachine, test: ast.expr, loop: ast.While, frame: 
     if any(_tells_time(machine, part, frame) for part in asked):
         return End.ITSELF
     return End.UNKNOWN if asked else End.DATA
+
+
+def _is_grown(test: ast.expr, loop: ast.While) -> bool:
+    """
+    Whether each round puts something into what the test reads, or takes it out.
+
+    ``while len(grid.rows) < 3: grid.rows.append(0)`` waits for nobody.
+    """
+    calls = (each.value for each in loop.body if isinstance(each, ast.Expr))
+    grown = {
+        ast.unparse(call.func.value)
+        for call in calls
+        if isinstance(call, ast.Call)
+        and isinstance(call.func, ast.Attribute)
+        and call.func.attr in _GROWING
+    }
+    read = (part for part in walk(test) if isinstance(part, (ast.Attribute, ast.Name)))
+    return bool(grown) and any(ast.unparse(part) in grown for part in read)
 
 
 def _changed_in(loop: ast.While, shared: set[str]) -> set[str]:
@@ -186,6 +211,14 @@ def _evaluated(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> tupl
         return options_of(machine.evaluate(node, frame))
     finally:
         world.effects = noted
+
+
+def asked_of_none(
+    machine: ConcurrentMachine, tests: Iterable[ast.expr], frame: Frame
+) -> ast.expr | None:
+    """What is ``None`` for all that is known while a test asks it for more: that raises."""
+    asked = (part.value for test in tests for part in walk(test) if isinstance(part, _OF_OWNERS))
+    return next((each for each in asked if _evaluated(machine, each, frame) == (NONE,)), None)
 
 
 def _looks(machine: ConcurrentMachine, value: ast.expr, frame: Frame) -> bool:

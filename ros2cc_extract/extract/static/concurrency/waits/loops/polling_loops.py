@@ -20,6 +20,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.counted_tests import 
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import (
     End,
     Seen,
+    asked_of_none,
     end_of,
     exits_of,
     only_passes_time,
@@ -393,7 +394,12 @@ def _note(
     is_open = end is not End.ITSELF and (
         seen.outside is not None or (end is End.UNKNOWN and is_waiting)
     )
-    if seen.names and not is_open:
+    if (none := asked_of_none(machine, shown, frame)) is not None:
+        raises = Unknown(
+            f'{ast.unparse(none)} is None, so that the test raises an exception', place
+        )
+        machine.note_loop_on_data(call, raises, None, place)
+    elif seen.names and not is_open:
         reference = reference_to(seen)
         effects = machine.world.effects or EffectLog()
         reference.before = frozenset((access.name, access.source) for access in effects.writes)

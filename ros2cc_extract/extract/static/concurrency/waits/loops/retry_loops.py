@@ -26,7 +26,7 @@ from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import POLLING_LOOP
+from ros2cc_extract.spec.effects import OUTSIDE, POLLING_LOOP, Blocking
 
 RAISE_WHEN_OVER = frozenset(
     ['Queue.get', 'Queue.put', 'Future.result', 'Future.exception', 'client.call', 'Popen.wait']
@@ -62,6 +62,8 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, first: int) 
         return True
     if _has_timed_waits(effects, first, attempt, frame):
         return True
+    if _asks_outside(machine, effects, first, attempt, frame):
+        return True  # each round waits for that, which is told
     place = frame.place(loop)
     tried = list(_tried(attempt))
     names = _read(machine, tried, frame)
@@ -103,15 +105,30 @@ def _leaves_of(body: Sequence[ast.stmt]) -> Iterator[ast.AST]:
 
 def _has_timed_waits(effects: EffectLog, first: int, attempt: ast.Try, frame: Frame) -> bool:
     """What raises when its time is over and is tried again has no time-out."""
-    lines = range(attempt.lineno, attempt.handlers[0].lineno)
-    file = frame.place(attempt).file
     is_any = False
     for number, block in enumerate(effects.blocking[first:], first):
-        is_inside = block.source and block.source.file == file and block.source.line in lines
-        if is_inside and block.call in RAISE_WHEN_OVER:
+        if _stands_in(block, attempt, frame) and block.call in RAISE_WHEN_OVER:
             is_any = True
             effects.blocking[number] = replace(block, seconds=None, assumed=None)
     return is_any
+
+
+def _asks_outside(
+    machine: ConcurrentMachine, effects: EffectLog, first: int, attempt: ast.Try, frame: Frame
+) -> bool:
+    """Whether the attempt waits without a time-out for somebody outside, as a person."""
+    rows = (
+        machine.model.waits.get(block.call)
+        for block in effects.blocking[first:]
+        if block.seconds is None and _stands_in(block, attempt, frame)
+    )
+    return any(row is not None and OUTSIDE in row.always for row in rows)
+
+
+def _stands_in(block: Blocking, attempt: ast.Try, frame: Frame) -> bool:
+    lines = range(attempt.lineno, attempt.handlers[0].lineno)
+    at = block.source
+    return at is not None and at.file == frame.place(attempt).file and at.line in lines
 
 
 def _tried(attempt: ast.Try) -> Iterator[ast.expr]:
