@@ -11,6 +11,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     flag_locks,
     kept_threads,
     lost_notifications,
+    signal_locks,
     torn_updates,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import (
@@ -280,6 +281,7 @@ class Effects(Waits):
                 and not is_counter(self.world, option)
             ):
                 name = self.lock_name(option, option.state.kind)
+                signal_locks.note_taken(self.world, option)
                 if name in self.world.held and option.state.kind in _RE_ENTRANT:
                     self.world.held = (*self.world.held, name)
                     continue  # its holder takes it once more and does not wait

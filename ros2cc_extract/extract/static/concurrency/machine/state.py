@@ -176,6 +176,15 @@ class SetUpWait:
     in_handler: bool = False
 
 
+@dataclass(frozen=True, eq=False)
+class LockUse:
+    """Which callbacks and threads take a lock, and which give it back, by their identity."""
+
+    lock: Instance
+    takers: set[int | None] = field(default_factory=set)
+    givers: set[int | None] = field(default_factory=set)
+
+
 @dataclass
 class ConcurrentWorld(World):
     """
@@ -216,6 +225,8 @@ class ConcurrentWorld(World):
         callback runs, and how many it had ``before_loop``, the outermost of those loops.
     :param main_takes: locks that the main program takes itself, with the number of handlers of
         signals by then.
+    :param lock_uses: who takes and gives back each lock; ``signals`` where those locks are made
+        of which an earlier run has found that they are signals, see ``signal_locks.py``.
     :param loops_at: of a lock, how many of ``open_loops`` there were when it was taken.
     :param takes: how often each of them was taken; ``holds`` the number of the present hold,
         and ``begun`` where something was made or started in one.
@@ -242,6 +253,8 @@ class ConcurrentWorld(World):
     wakings: dict[int, list[Waking]] = field(default_factory=dict)
     asked: set[int] = field(default_factory=set)
     main_spins: int = 0
+    lock_uses: dict[int, LockUse] = field(default_factory=dict)
+    signals: frozenset[Place] = frozenset()
     before_loop: int = 0
     made_at: dict[object, list[int]] = field(default_factory=dict)
     other_writes: dict[str, tuple[str | None, Place]] = field(default_factory=dict)
