@@ -35,6 +35,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     only_sleeps,
     runs_out,
 )
+from ros2cc_extract.extract.static.concurrency.waits.loops.values_that_stay import tests_of
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     awaits_each_round,
     call_of_loop,
@@ -398,6 +399,7 @@ def _note(
         effects = machine.world.effects or EffectLog()
         reference.before = frozenset((access.name, access.source) for access in effects.writes)
         reference.rise = rise_of(machine, shown, frame)
+        reference.tests = tests_of(machine, loop, tests, shown, frame)
         reference.sent = sent
         reference.sent_by_now = sent_by_now(effects)
         reference.minds_nothing = minds_nothing(loop)
