@@ -31,6 +31,12 @@ from ros2cc_extract.findings.races.critical_sections import (
 )
 from ros2cc_extract.findings.races.flag_locks import as_shared, shared_by
 from ros2cc_extract.findings.races.lifecycle import comes_before
+from ros2cc_extract.findings.races.loops_over_data import (
+    Touch,
+    changed_in_loop,
+    emptied,
+    may_meet,
+)
 from ros2cc_extract.findings.races.shared_objects import node_classes, shared_part
 from ros2cc_extract.findings.waits.concurrent_threads import (
     beside,
@@ -55,6 +61,7 @@ class RaceKind(Enum):
     CHANGED_IN_LOOP = 'changed in a loop'
     CLEARED_IN_USE = 'cleared in use'
     TORN = 'torn'
+    EMPTIED = 'emptied after a look'
     LOST_UPDATE = 'lost update'
     CHECK_THEN_ACT = 'check then act'
     CHECK_THEN_CHANGE = 'check then change'
@@ -62,7 +69,12 @@ class RaceKind(Enum):
     LAST_WRITE_WINS = 'last write wins'
 
 
-_OWN_HARM = (RaceKind.CHANGED_IN_LOOP, RaceKind.CLEARED_IN_USE, RaceKind.TORN)
+_OWN_HARM = (
+    RaceKind.CHANGED_IN_LOOP,
+    RaceKind.CLEARED_IN_USE,
+    RaceKind.TORN,
+    RaceKind.EMPTIED,
+)
 """What not every other write does."""
 LOSING = (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT, RaceKind.WHOLE_UPDATE)
 
@@ -232,7 +244,8 @@ def _of_two_alike(thread: Activity) -> Iterator[_Conflict]:
 
 def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
     written = {access.name for access in one.writes} & {access.name for access in other.writes}
-    others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in _loops(one, other)]
+    others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in _uses(changed_in_loop(one, other))]
+    others += [(RaceKind.EMPTIED, *pair) for pair in _uses(emptied(one, other))]
     others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(one, other)]
     others += [(RaceKind.TORN, *pair) for pair in _torn(one, other)]
     for name in sorted(written | {use.access.name for _, use, _ in others}):
@@ -263,6 +276,10 @@ def _over_awaits(one: Callback, other: Callback, context: Context) -> Iterator[_
                     yield _Conflict(RaceKind.CHECK_THEN_ACT, first, second, None)
 
 
+def _uses(pairs: Iterable[tuple[Touch, Touch]]) -> Iterator[tuple[Use, Use]]:
+    return ((Use(*first), Use(*second)) for first, second in pairs)
+
+
 def _spins(doer: Doer) -> tuple[Act, ...]:
     """Where it runs the callbacks itself, one by one; they come in nowhere else."""
     return doer.spins if isinstance(doer, Activity) else ()
@@ -278,7 +295,8 @@ def _over_spins(server: Doer, callback: Doer) -> Iterator[_Conflict]:
         if not is_other_item(a, b) and not _changes_nothing(Use(server, a), Use(callback, b))
     ]
     found = [pair for pair in pairs if _is_read_before_spin(*pair[1:])]
-    found += [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in _loops(server, callback)]
+    looped = _uses(changed_in_loop(server, callback))
+    found += [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in looped]
     cleared = [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(server, callback)]
     found += [each for each in cleared if begun < steps(each[1].access)]
     for kind, first, second in found:
@@ -316,36 +334,8 @@ def _torn(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
             if sent.name == change.name
             and change.update
             and not sent.update
-            and _may_meet(Use(sender, sent), Use(changer, change))
+            and may_meet((sender, sent), (changer, change))
         )
-
-
-def _may_meet(first: Use, second: Use) -> bool:
-    """Whether no common lock keeps them apart, and neither is over before the other begins."""
-    return not (
-        keep_apart(first.access.locks, second.access.locks)
-        or comes_before(second.access, second.doer, first.doer)
-        or comes_before(first.access, first.doer, second.doer)
-    )
-
-
-# Their loops notice a change of size; those over a list see more or less, and raise nothing.
-_NOTICING = frozenset({'dict', 'set', 'deque'})
-
-
-def _loops(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
-    """Loops of one over a collection that the other changes in place, without a common lock."""
-    for looper, changer in ((one, other), (other, one)):
-        for read in looper.reads:
-            if read.iterates in _NOTICING:
-                yield from (
-                    (Use(looper, read), Use(changer, write))
-                    for write in changer.writes
-                    if write.name == read.name
-                    and write.in_place
-                    and not write.keeps_size
-                    and _may_meet(Use(looper, read), Use(changer, write))
-                )
 
 
 def uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:

@@ -49,7 +49,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import FLAG, SHARED, Access, Act
+from ros2cc_extract.spec.effects import EMPTIES, FLAG, SHARED, Access, Act
 from ros2cc_extract.spec.model import When
 
 _CODE = (Module, Library, Class, Function)
@@ -171,7 +171,7 @@ class Effects(Waits):
             and not is_read
             and reading.is_in_one_piece(name, self.world.path),
             keeps_size=self.world.refilling,
-            moves=self.world.moves,
+            moves=EMPTIES if _is_emptied(kind, reading.stored) else self.world.moves,
             iterates=self.world.iterating,
             item=reading.items.get(at),
             chosen=chosen,
@@ -406,6 +406,13 @@ def _owner_of(name: str, frame: Frame) -> Scope | None:
             return scope
         scope = scope.parent
     return None
+
+
+def _is_emptied(kind: AccessKind, stored: Value | None) -> bool:
+    """``self.rows = []``: nothing of what was in it is left."""
+    if kind is not AccessKind.WRITE or not isinstance(stored, Collection):
+        return False
+    return not any(stored.slots.get(name) for name in ('items', 'entries', 'open'))
 
 
 def _is_false(stored: Value | None) -> bool:

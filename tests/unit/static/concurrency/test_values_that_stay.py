@@ -83,6 +83,63 @@ def test_the_write_may_end_it(test: str, write: str) -> None:
     assert judged(test, write) == ENDS
 
 
+BOTH = """\
+import time
+import rclpy
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Empty
+
+
+class Waiter(Node):
+    def __init__(self):
+        super().__init__('waiter')
+        self.left, self.right, self.enabled = False, False, True
+        other = MutuallyExclusiveCallbackGroup()
+        self.create_subscription(Empty, 'left', self.on_left, 10, callback_group=other)
+        self.create_subscription(Empty, 'right', self.on_right, 10, callback_group={group})
+        self.create_timer(1.0, self.work)
+
+    def on_left(self, msg):
+        self.left = True
+
+    def on_right(self, msg):
+        self.right = True
+
+    def work(self):
+        while {test}:
+            time.sleep(0.1)
+
+
+rclpy.init()
+executor = MultiThreadedExecutor(num_threads=3)
+executor.add_node(Waiter())
+executor.spin()
+"""
+
+
+@pytest.mark.parametrize(('group', 'verdict'), [('other', ENDS), ('None', FOUND)])
+@pytest.mark.parametrize(
+    'test',
+    [
+        'not (self.left and self.right)',
+        'not self.left or not self.right',
+        'rclpy.ok() and not (self.left and self.right)',
+        'not (self.enabled and self.left and self.right)',
+        'not all((self.left, self.right))',
+        "not all(getattr(self, name) for name in ('left', 'right'))",
+        "not getattr(self, 'right')",
+    ],
+)
+def test_all_that_a_loop_asks_for_must_come(test: str, group: str, verdict: str) -> None:
+    assert judge(BOTH.format(test=test, group=group))['work'] == verdict
+
+
+def test_one_of_several_is_enough_where_the_loop_asks_for_any() -> None:
+    assert judge(BOTH.format(test='not (self.left or self.right)', group='None'))['work'] == ENDS
+
+
 def test_open_parts_may_have_any_result_by_which_the_loop_went_on() -> None:
     asked, other = Formula('asked', name='a'), Formula('open')
     both = LoopTest(Formula('and', (other, Formula('not', (asked,)))), stays_if=True)

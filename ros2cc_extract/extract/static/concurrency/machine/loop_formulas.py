@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator, Mapping
 from itertools import product
 from typing import Any
@@ -22,6 +23,7 @@ class Formula:
     :param kind: ``asked`` for data of ``name``, perhaps an ``item`` of it; ``constant``;
         ``compared`` by the function in ``value``; ``and``, ``or``, ``not``; ``open``.
     :param names: of the data that an open part reads.
+    :param node: the expression, for a part that is asked or open.
     """
 
     kind: str
@@ -30,6 +32,13 @@ class Formula:
     item: str | None = None
     value: Any = None
     names: frozenset[str] = frozenset()
+    node: ast.expr | None = None
+
+    @property
+    def all_names(self) -> frozenset[str]:
+        """Of the data that it asks for."""
+        own = self.names | ({self.name} if self.name else frozenset())
+        return own.union(*(part.all_names for part in self.parts))
 
     def asked_of(self, name: str) -> frozenset[str | None]:
         """The items of the data of that name that are asked for; ``None`` for all of it."""
@@ -98,3 +107,24 @@ class LoopTest:
             if not is_left_already and (after is UNKNOWN or bool(after) is not self.stays_if):
                 return False
         return True
+
+    def needed(self) -> tuple[LoopTest, ...]:
+        """The tests all of which must come out otherwise for this one to do so."""
+        if self.stays_if is None:
+            return (self,)
+        return tuple(_needed(self.formula, truth=not self.stays_if))
+
+
+def _needed(formula: Formula, *, truth: bool) -> Iterator[LoopTest]:
+    if formula.kind == 'not':
+        yield from _needed(formula.parts[0], truth=not truth)
+        return
+    parts = formula.parts if formula.kind in ('and', 'or') else ()
+    if parts and (formula.kind == 'or') is truth:
+        # One of several is enough; what asks for no data is left out, as ``rclpy.ok()`` is.
+        parts = tuple(part for part in parts if part.all_names)
+        parts = parts if len(parts) == 1 else ()
+    for part in parts:
+        yield from _needed(part, truth=truth)
+    if not parts:
+        yield LoopTest(formula, stays_if=not truth)

@@ -135,13 +135,15 @@ class DataRef(EntityRef):
     :param before: what the loop's own callback has written before the loop, and where.
     :param sent: topics of messages that come before the loop; ``sent_by_now`` of all, with those
         of its rounds.
-    :param tests: of the loop.
+    :param tests: of the loop; ``is_open_at_first`` where it is not known that the loop waits for
+        this data at all, beside other data.
     :param rise: of a number that has to grow, see ``counted_tests.py``.
     """
 
     number = 0
     rise: Rise | None = None
     tests: tuple[LoopTest, ...] = ()
+    is_open_at_first = False
     sent: frozenset[str] = frozenset()
     sent_by_now: frozenset[str] = frozenset()
     names: frozenset[str] = frozenset()

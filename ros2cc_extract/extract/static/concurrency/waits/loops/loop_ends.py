@@ -108,7 +108,7 @@ def _never_holds(
         names = {each.id for each in walk(part) if isinstance(each, ast.Name)}
         if not names.isdisjoint(changed) or seen_by(machine, [part], frame).names:
             return False
-        options = _evaluated(machine, part, frame)
+        options = evaluated(machine, part, frame)
         return bool(options) and all(machine.truth(each) is truth for each in options)
 
     return is_surely(test, truth=False)
@@ -174,12 +174,13 @@ def _tells_time(machine: ConcurrentMachine, part: ast.expr, frame: Frame) -> boo
 def _functions(machine: ConcurrentMachine, called: ast.expr, frame: Frame) -> list[Function]:
     functions = (
         each.function if isinstance(each, Bound) else each
-        for each in _evaluated(machine, called, frame)
+        for each in evaluated(machine, called, frame)
     )
     return [each for each in functions if isinstance(each, Function)]
 
 
-def _evaluated(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> tuple[Value, ...]:
+def evaluated(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> tuple[Value, ...]:
+    """What an expression may give where it stands; nothing is noted."""
     world = machine.world
     noted, world.effects = world.effects, EffectLog()
     try:
@@ -201,8 +202,8 @@ def _only_looks(machine: ConcurrentMachine, part: ast.expr, frame: Frame) -> boo
     if isinstance(part.func, ast.Attribute) and name_of(part) in _OF_TEXTS:
         return True
     if isinstance(part.func, ast.Attribute) and name_of(part) in _OF_COLLECTIONS:
-        return all(map(_is_data, _evaluated(machine, part.func.value, frame)))
-    called = _evaluated(machine, part.func, frame)
+        return all(map(_is_data, evaluated(machine, part.func.value, frame)))
+    called = evaluated(machine, part.func, frame)
     functions = [each.function if isinstance(each, Bound) else each for each in called]
     return bool(functions) and all(map(_asks_nobody, functions))
 

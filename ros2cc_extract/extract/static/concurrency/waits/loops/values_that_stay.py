@@ -14,7 +14,8 @@ from typing import Any
 
 from ros2cc_extract.extract.static.concurrency.machine.loop_formulas import Formula, LoopTest
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import seen_by
+from ros2cc_extract.extract.static.concurrency.waits.loops.local_copies import without_copies
+from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import evaluated, seen_by
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import LEAVES, own_parts
 from ros2cc_extract.extract.static.python.machine.dependences import constant_key
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -73,13 +74,63 @@ def _formula(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> Formul
         compared = _COMPARED.get(type(node.ops[0]))
         sides = tuple(_formula(machine, e, frame) for e in (node.left, node.comparators[0]))
         if compared is not None:
-            return Formula('compared', sides, value=compared)
-    is_truth = isinstance(node, ast.Call) and getattr(node.func, 'id', '') == 'bool'
-    if is_truth and len(node.args) == 1:  # type: ignore[attr-defined]
-        return _formula(machine, node.args[0], frame)  # type: ignore[attr-defined]
+            return Formula('compared', sides, value=compared, node=node)
+    called = getattr(node.func, 'id', '') if isinstance(node, ast.Call) else ''
+    arguments = node.args if isinstance(node, ast.Call) else []
+    if called == 'bool' and len(arguments) == 1:
+        return _formula(machine, arguments[0], frame)
+    items = _items(arguments[0]) if called in _OF_ALL and len(arguments) == 1 else []
+    if items:
+        return Formula(_OF_ALL[called], tuple(_formula(machine, e, frame) for e in items))
     names = seen_by(machine, [node], frame).names
     item = constant_key(node.slice) if isinstance(node, ast.Subscript) else None
     is_whole = not isinstance(node, ast.Subscript) or item is not None
-    if isinstance(node, _NAMED) and len(names) == 1 and is_whole:
-        return Formula('asked', name=min(names), item=item)
-    return Formula('open', names=names)
+    is_asked = isinstance(node, _NAMED) or called == 'getattr'
+    if is_asked and len(names) == 1 and is_whole:
+        return Formula('asked', name=min(names), item=item, node=node)
+    return Formula('open', names=names, node=node)
+
+
+_OF_ALL = {'all': 'and', 'any': 'or'}
+
+
+def _items(node: ast.expr) -> list[ast.expr]:
+    """What ``all`` and ``any`` go over, where it stands there: items, or one for each constant."""
+    if isinstance(node, (ast.List, ast.Tuple)):
+        return node.elts
+    if not isinstance(node, (ast.GeneratorExp, ast.ListComp)) or len(node.generators) != 1:
+        return []
+    (generator,) = node.generators
+    over, target = generator.iter, generator.target
+    is_known = isinstance(over, (ast.List, ast.Tuple)) and isinstance(target, ast.Name)
+    if not is_known or generator.ifs or generator.is_async:
+        return []
+    constants = [each for each in over.elts if isinstance(each, ast.Constant)]  # type: ignore[attr-defined]
+    if len(constants) < len(over.elts):  # type: ignore[attr-defined]
+        return []
+    return [
+        without_copies(node.elt, {target.id: each}, lambda value: True)  # type: ignore[attr-defined]
+        for each in constants
+    ]
+
+
+def needed_of(
+    machine: ConcurrentMachine, tests: Sequence[LoopTest], frame: Frame
+) -> list[tuple[LoopTest, bool]]:
+    """
+    What must come out otherwise for the loop to end, if that is several, each by data of its own.
+
+    What does so already, for good, is left out; and with each, whether it surely does not.
+    """
+    asking = [test for test in tests if test.formula.all_names]
+    needed = asking[0].needed() if len(asking) == 1 else ()
+    if len(needed) < 2 or not all(each.formula.all_names for each in needed):
+        return []
+    found = []
+    for each in needed:
+        node = each.formula.node
+        options = evaluated(machine, node, frame) if node is not None else ()
+        truths = {machine.truth(option) for option in options} or {None}
+        if truths != {not each.stays_if}:
+            found.append((each, truths == {each.stays_if}))
+    return found
