@@ -15,7 +15,7 @@ from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind
 from ros2cc_extract.generator.nested_spins import is_part_of_spin
 from ros2cc_extract.generator.program_steps import NamedWait, Resource, WaitKind
 from ros2cc_extract.identity_memo import once
-from ros2cc_extract.spec.client_server_pairs import client_before
+from ros2cc_extract.spec.client_server_pairs import client_before, server_of
 from ros2cc_extract.spec.effects import AWAIT, OUTSIDE, TIME, Blocking, Needs, Waker
 from ros2cc_extract.spec.model import Activity, Callback, CallbackType, GroupType, Spec
 
@@ -277,17 +277,18 @@ def _resources_of(
     name = block.resource
     if name is None:
         name = f'{callback.name} {callback.blocking.index(block)}'
+    given = _givers(block, callback, spec)
     if block.needs is Needs.ALL:
-        for waker in (each for each in block.wakers if each.by not in _BY_ITSELF):
+        for waker in (each for each in given if each.by not in _BY_ITSELF):
             after = 'end' if waker.after is None else waker.after
             yield Resource(f'{name} by {waker.by} {after}', is_each=False), (waker,)
-        if block.wakers:
+        if given:
             return
     is_each = block.needs is Needs.EACH
     # Of what is left after other runs nothing is known, but that it is no more.
     has_some = is_each and block.escapes is None and not may_be_used_up(block, spec)
     initial = block.initial if has_some else 0
-    by = (replace(waker, conditional=False) for waker in block.wakers)
+    by = (replace(waker, conditional=False) for waker in given)
     yield (
         Resource(
             name,
@@ -297,8 +298,48 @@ def _resources_of(
             least=1 if is_each else block.signals,
             given_by=frozenset() if is_each else frozenset(by),
         ),
-        block.wakers,
+        given,
     )
+
+
+def _givers(block: Blocking, callback: Actor, spec: Spec) -> tuple[Waker, ...]:
+    """
+    Give what ends a wait, with what answers a done-callback in place of the done-callback.
+
+    Nothing calls a done-callback before its client has taken the answer, and no answer comes
+    before the service of the unit has sent it. Where the wait asks the client itself, that is so.
+    """
+    is_asked = not _is_open(block, spec) and _asked_before(block, callback, spec) is not None
+    if is_asked:
+        return block.wakers
+    return tuple(_in_place_of(waker, callback, spec) for waker in block.wakers)
+
+
+def _in_place_of(waker: Waker, waiting: Actor, spec: Spec) -> Waker:
+    done = _by_name(spec).get(waker.by)
+    client = client_before(done, spec.callbacks) if done is not None else None
+    if done is None or client is None or waiting in (client, done):
+        return waker
+    server = server_of(client, spec.callbacks)
+    first = client
+    if server is not None and not _shares_group(client, waiting, spec):
+        first = server if _may_be_held(server, waiting, spec) else client
+    is_sure = not done.blocking and not done.locks
+    return replace(
+        waker, by=first.name, after=None, conditional=waker.conditional or not is_sure, held=()
+    )
+
+
+def _may_be_held(server: Callback, waiting: Actor, spec: Spec) -> bool:
+    """Return whether a server may not come to its end while a callback waits."""
+    return bool(server.blocking) or _shares_group(server, waiting, spec)
+
+
+def _shares_group(one: Callback, other: Actor, spec: Spec) -> bool:
+    if isinstance(other, Activity):
+        return False
+    is_exclusive = spec.group_of(one).type is GroupType.EXCLUSIVE
+    return is_exclusive and one.group == other.group
 
 
 def _must_run_once_more(block: Blocking, callback: Actor, spec: Spec) -> bool:

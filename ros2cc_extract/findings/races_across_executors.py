@@ -15,7 +15,7 @@ from ros2cc_extract.findings.rules.races import lost_update
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import Spec
 
-_REPORTED = (*LOSING, RaceKind.CHANGED_IN_LOOP, RaceKind.TORN)
+_REPORTED = (*LOSING, RaceKind.CHANGED_IN_LOOP, RaceKind.TORN, RaceKind.EMPTIED)
 _ADDED = '; their executors run at the same time, each in a thread of its own'
 
 

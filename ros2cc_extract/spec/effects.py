@@ -178,7 +178,7 @@ BEGINS = '…'
 """Behind the beginning of a key."""
 
 FLAG = ' (flag)'
-ADDS, TAKES = 'adds', 'takes'
+ADDS, TAKES, EMPTIES = 'adds', 'takes', 'empties'
 CANCELS = 'cancel'
 """The name of the change by which a timer ends itself after it has waited."""
 ABORTS = 'abort'
@@ -203,7 +203,7 @@ class Access:
         global lock, lets no other thread in since that was read (``self.n += 1``).
     :param keeps_size: true for ``d[k] = v`` where the set-up has put in ``k``.
     :param moves: ``adds`` for one that puts in an item and takes none out, ``takes`` for one that
-        takes an item out.
+        takes an item out, ``empties`` for one that takes out all.
     :param iterates: class of the collection, where a loop goes over it.
     :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``;
         or how its key begins, where that is a text: ``'a'…``.

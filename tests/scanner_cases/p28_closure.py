@@ -23,3 +23,4 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   subscription on_in in a_default key=in
+#     writes main.seen update in_place @13

@@ -92,6 +92,7 @@ if __name__ == '__main__':
 #   group no_group REENTRANT groupless
 #   timer speak in worker_default every 1
 #     blocks time.sleep conditional 0.01 s @36
+#     reads Worker.__init__.told @35
 #   timer look in worker_default every 2
 #     blocks time.sleep conditional 0.03 s @60
 #     blocks time.sleep conditional 0.04 s @62
@@ -112,6 +113,7 @@ if __name__ == '__main__':
 #     writes Worker.job rests under Worker.job (flag) @51
 #     changes done_callback @53
 #   subscription hear in worker_default key=heard
+#     writes Worker.__init__.told @40
 #   subscription on_order in worker_default key=order
 #     reads q27_state_of_other_callbacks.SETTINGS item 'loud' @75
 #     reads Worker.shared @76

@@ -57,6 +57,9 @@ door = Door()
 # unit backend: SingleThreadedExecutor x1 spin in thread, spin
 #   group backend_default EXCLUSIVE default
 #   timer show in backend_default every 0.5 when=later
+#     reads q29_node_made_when_it_is_missing.shared @37>28
+#     reads q29_node_made_when_it_is_missing.shared @38>28
 #     publishes lamp conditional @39
 #     changes timer @38
 #   subscription heard in backend_default key=door conditional when=later
+#     reads q29_node_made_when_it_is_missing.shared @50>28

@@ -1,4 +1,4 @@
-"""What one doer breaks for another, other than by two writes: loops, uses, messages, state."""
+"""What one doer breaks for another, other than by two writes or in a loop."""
 
 from __future__ import annotations
 
@@ -14,24 +14,9 @@ from ros2cc_extract.findings.races.critical_sections import (
     writes_of,
 )
 from ros2cc_extract.findings.races.lifecycle import comes_before
-from ros2cc_extract.light_dataclasses import dataclass
-from ros2cc_extract.source_locations import Place
+from ros2cc_extract.findings.races.uses import Use, may_meet
 from ros2cc_extract.spec.effects import Access
 from ros2cc_extract.spec.program_order import steps
-
-
-@dataclass(frozen=True)
-class Use:
-    """A write of an attribute by a callback or a thread, or a loop over it."""
-
-    doer: Doer
-    access: Access
-
-    @property
-    def place(self) -> Place:
-        """Where it stands; the callback where the line is not known."""
-        doer = self.doer
-        return self.access.source or doer.defined or doer.source or Place(doer.name)
 
 
 def torn_messages(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
@@ -44,36 +29,8 @@ def torn_messages(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
             if sent.name == change.name
             and change.update
             and not sent.update
-            and _may_meet(Use(sender, sent), Use(changer, change))
+            and may_meet(Use(sender, sent), Use(changer, change))
         )
-
-
-def _may_meet(first: Use, second: Use) -> bool:
-    """Whether no common lock keeps them apart, and neither is over before the other begins."""
-    return not (
-        keep_apart(first.access.locks, second.access.locks)
-        or comes_before(second.access, second.doer, first.doer)
-        or comes_before(first.access, first.doer, second.doer)
-    )
-
-
-# Their loops notice a change of size; those over a list see more or less, and raise nothing.
-_NOTICING = frozenset({'dict', 'set', 'deque'})
-
-
-def loops_changed(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
-    """Loops of one over a collection that the other changes in place, without a common lock."""
-    for looper, changer in ((one, other), (other, one)):
-        for read in looper.reads:
-            if read.iterates in _NOTICING:
-                yield from (
-                    (Use(looper, read), Use(changer, write))
-                    for write in changer.writes
-                    if write.name == read.name
-                    and write.in_place
-                    and not write.keeps_size
-                    and _may_meet(Use(looper, read), Use(changer, write))
-                )
 
 
 def uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:

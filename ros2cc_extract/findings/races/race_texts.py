@@ -28,6 +28,8 @@ def describe(race: Race) -> str:
         f'{it} to None in between: then the use raises an exception',
         RaceKind.TORN: f'{first} {_takes(race)} {names} while {others} may change {it} piece by '
         f'piece: {"the message" if _is_sent(race) else it} is half old and half new',
+        RaceKind.EMPTIED: f'{first} iterates over {names} and then empties {it}, and {others} may '
+        'put something in before that: it is lost',
         RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
         'at the same time: one change can get lost',
         RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '

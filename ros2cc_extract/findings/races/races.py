@@ -31,15 +31,15 @@ from ros2cc_extract.findings.races.critical_sections import (
 )
 from ros2cc_extract.findings.races.flag_locks import as_shared, shared_by
 from ros2cc_extract.findings.races.harms import (
-    Use,
-    loops_changed,
     torn_messages,
     torn_states,
     uses_cleared,
     written_before,
 )
 from ros2cc_extract.findings.races.lifecycle import comes_before
+from ros2cc_extract.findings.races.loops_over_data import changed_in_loop, emptied
 from ros2cc_extract.findings.races.shared_objects import node_classes, shared_part
+from ros2cc_extract.findings.races.uses import Use
 from ros2cc_extract.findings.waits.concurrent_threads import (
     beside,
     node_of,
@@ -63,6 +63,7 @@ class RaceKind(Enum):
     CHANGED_IN_LOOP = 'changed in a loop'
     CLEARED_IN_USE = 'cleared in use'
     TORN = 'torn'
+    EMPTIED = 'emptied after a look'
     LOST_UPDATE = 'lost update'
     CHECK_THEN_ACT = 'check then act'
     CHECK_THEN_CHANGE = 'check then change'
@@ -76,6 +77,7 @@ _OWN_HARM = (
     RaceKind.CLEARED_IN_USE,
     RaceKind.TORN,
     RaceKind.TORN_STATE,
+    RaceKind.EMPTIED,
 )
 """What not every other write does."""
 LOSING = (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT, RaceKind.WHOLE_UPDATE)
@@ -242,7 +244,8 @@ def _of_two_alike(thread: Activity) -> Iterator[_Conflict]:
 
 def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
     written = {access.name for access in one.writes} & {access.name for access in other.writes}
-    others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in loops_changed(one, other)]
+    others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in changed_in_loop(one, other)]
+    others += [(RaceKind.EMPTIED, *pair) for pair in emptied(one, other)]
     others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(one, other)]
     others += [(RaceKind.TORN, *pair) for pair in torn_messages(one, other)]
     others += [(RaceKind.TORN_STATE, *pair) for pair in torn_states(one, other)]
@@ -291,7 +294,7 @@ def _over_spins(server: Doer, callback: Doer) -> Iterator[_Conflict]:
         if not is_other_item(a, b) and not _changes_nothing(Use(server, a), Use(callback, b))
     ]
     found = [pair for pair in pairs if _is_read_before_spin(*pair[1:])]
-    found += [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in loops_changed(server, callback)]
+    found += [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in changed_in_loop(server, callback)]
     cleared = [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(server, callback)]
     found += [each for each in cleared if begun < steps(each[1].access)]
     for kind, first, second in found:

@@ -18,7 +18,7 @@ from ros2cc_extract.findings.races.critical_sections import (
     read_acted_on,
     waits,
 )
-from ros2cc_extract.findings.races.harms import Use
+from ros2cc_extract.findings.races.uses import Use
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.effects import Access

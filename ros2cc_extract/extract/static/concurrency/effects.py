@@ -7,10 +7,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses import (
+    closure_cells,
     collection_aliases,
     flag_locks,
     kept_threads,
     lost_notifications,
+    signal_locks,
     torn_state,
     torn_updates,
 )
@@ -48,7 +50,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import FLAG, SHARED, Access, Act
+from ros2cc_extract.spec.effects import EMPTIES, FLAG, SHARED, Access, Act
 from ros2cc_extract.spec.model import When
 
 _CODE = (Module, Library, Class, Function)
@@ -122,14 +124,18 @@ class Effects(Waits):
 
     def _note_other_write(self, owner: Value, name: str, place: Place) -> None:
         """Code without a known caller, or that runs after the spin, writes an attribute."""
-        world = self.world
         cls = owner.cls if isinstance(owner, Instance) else owner
+        if isinstance(cls, Class):
+            whose = collection_aliases.object_name(owner, cls)  # type: ignore[arg-type]
+            self._note_late_write(f'{whose}.{unmangled(name, cls.name)}', place)
+
+    def _note_late_write(self, shown: str, place: Place) -> None:
+        world = self.world
         is_late = world.when is When.LATER or world.after_spin
-        if not isinstance(cls, Class) or not (is_late or world.is_beside_others):
+        if not (is_late or world.is_beside_others):
             return
         function = self.stack[0].name if self.stack else ''
         by = function if world.when is When.LATER else None
-        shown = f'{collection_aliases.object_name(owner, cls)}.{unmangled(name, cls.name)}'  # type: ignore[arg-type]
         if is_late:
             world.other_writes.setdefault(shown, (by, place))
         else:
@@ -166,7 +172,7 @@ class Effects(Waits):
             and not is_read
             and reading.is_in_one_piece(name, self.world.path),
             keeps_size=self.world.refilling,
-            moves=self.world.moves,
+            moves=EMPTIES if _is_emptied(kind, reading.stored) else self.world.moves,
             iterates=self.world.iterating,
             item=reading.items.get(at),
             chosen=chosen,
@@ -223,20 +229,25 @@ class Effects(Waits):
                 self.note_attribute(owner, frame.attribute_name(target.attr), kind, place)
         elif isinstance(target, ast.Name) and self._is_global(target.id, frame):
             self.note_global(frame.module, target.id, kind, place)
-        elif isinstance(target, ast.Name) and kind in _OF_CONTENT and self.world.homes:
+        elif isinstance(target, ast.Name):
+            self._note_variable(target, frame, kind)
+
+    def _note_variable(self, target: ast.Name, frame: Frame, kind: AccessKind) -> None:
+        """A local name stands for what an attribute holds, or is shared with inner functions."""
+        homes: list[collection_aliases.Home] = []
+        if kind in _OF_CONTENT and self.world.homes:
             noted, self.world.effects = self.world.effects, None
             held = self.evaluate(target, frame)
             self.world.effects = noted
-            for home in collection_aliases.homes_of(self.world, held):
-                self._note_access(self._seen_at(home), kind, place, target.id)
+            homes = collection_aliases.homes_of(self.world, held)
+        place, owner = frame.place(target), _owner_of(target.id, frame)
+        for home in homes:
+            self._note_access(self._seen_at(home), kind, place, target.id)
+        if owner is not None and not homes:
+            self.note_cell(owner, target.id, kind, place)
 
     def _is_global(self, name: str, frame: Frame) -> bool:
-        scope: Scope | None = frame.scope
-        while scope is not None:
-            if name in scope.slots and name not in scope.global_names:
-                return False
-            scope = scope.parent
-        return name in frame.module.slots
+        return _owner_of(name, frame) is None and name in frame.module.slots
 
     def _is_behaviour(self, owner: Instance | Class, name: str) -> bool:
         """Methods, entities and locks are no shared data."""
@@ -272,6 +283,21 @@ class Effects(Waits):
             return
         self._note_access(f'{module.name}.{name}', kind, place)
 
+    def note_cell(self, scope: Scope, name: str, kind: AccessKind, place: Place) -> None:
+        """A variable is touched; what is made in this run is shared only with later code."""
+        world, effects = self.world, self.world.effects
+        shown = closure_cells.shown_cell(world, scope, name)
+        if shown is None:
+            return
+        is_own = effects is not None and scope.born is effects
+        if effects is None:
+            if kind is not AccessKind.READ:
+                self._note_late_write(shown, place)
+        elif kind is AccessKind.WITHIN or (is_own and kind is not AccessKind.READ):
+            effects.own.append(shown)
+        elif not is_own:
+            self._note_access(shown, kind, place, name)
+
     def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
         """A lock is taken; with a time-out it may not be."""
         for option in map(lock_of, options_of(lock)):
@@ -282,6 +308,7 @@ class Effects(Waits):
                 and not is_counter(self.world, option)
             ):
                 name = self.lock_name(option, option.state.kind)
+                signal_locks.note_taken(self.world, option)
                 if name in self.world.held and option.state.kind in _RE_ENTRANT:
                     self.world.held = (*self.world.held, name)
                     continue  # its holder takes it once more and does not wait
@@ -371,6 +398,23 @@ def _iterated(node: ast.expr) -> Iterator[ast.expr]:
         elif isinstance(function, ast.Name) and function.id in _PASSING_ON:
             for argument in node.args:
                 yield from _iterated(argument)
+
+
+def _owner_of(name: str, frame: Frame) -> Scope | None:
+    """The function whose variable the name means."""
+    scope: Scope | None = frame.scope
+    while scope is not None:
+        if name in scope.slots and name not in scope.global_names:
+            return scope
+        scope = scope.parent
+    return None
+
+
+def _is_emptied(kind: AccessKind, stored: Value | None) -> bool:
+    """``self.rows = []``: nothing of what was in it is left."""
+    if kind is not AccessKind.WRITE or not isinstance(stored, Collection):
+        return False
+    return not any(stored.slots.get(name) for name in ('items', 'entries', 'open'))
 
 
 def _is_false(stored: Value | None) -> bool:

@@ -103,8 +103,11 @@ _CHANGING_NODES = frozenset({ast.Global, ast.Subscript, ast.Attribute})
 
 
 def _changed_names(part: ast.AST) -> list[str]:
-    if isinstance(part, ast.Global):
-        return part.names
+    return part.names if isinstance(part, ast.Global) else changed_in_place(part)
+
+
+def changed_in_place(part: ast.AST) -> list[str]:
+    """The name whose object gets or loses an item here."""
     if isinstance(part, ast.Subscript) and isinstance(part.ctx, (ast.Store, ast.Del)):
         return [part.value.id] if isinstance(part.value, ast.Name) else []
     if isinstance(part, ast.Attribute) and part.attr in CHANGING_METHODS:

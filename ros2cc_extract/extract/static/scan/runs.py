@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 
+from ros2cc_extract.extract.static.concurrency.accesses.signal_locks import signals_of
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     NodeState,
@@ -65,7 +66,15 @@ UNCALLED = -3
 
 def run_entry(project: Project, entry: Entry) -> RosInterpreter:
     """Follow a program from one of its entries, then its callbacks."""
+    machine = _run_entry(project, entry, frozenset())
+    signals = signals_of(machine.world)
+    return _run_entry(project, entry, signals) if signals else machine
+
+
+def _run_entry(project: Project, entry: Entry, signals: frozenset[Place]) -> RosInterpreter:
+    """The same, where it is known already where the locks are made that are signals."""
     machine = RosInterpreter(project)
+    machine.world.signals = signals
     machine.world.is_program = True
     place = Place(entry.source.shown, 1, 1)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from typing import TypeGuard
 
+from ros2cc_extract.extract.static.concurrency.accesses.signal_locks import signals_of
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import forget_awaits
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
@@ -46,7 +47,17 @@ def run_library(
     """
     if source.tree is None or not _has_uncovered(project, source, source.tree, covered):
         return None
+    machine = _run_library(project, source, covered, frozenset())
+    signals = signals_of(machine.world)
+    return _run_library(project, source, covered, signals) if signals else machine
+
+
+def _run_library(
+    project: Project, source: SourceFile, covered: frozenset[Place], signals: frozenset[Place]
+) -> RosInterpreter:
+    """The same, where it is known already where the locks are made that are signals."""
     machine = RosInterpreter(project)
+    machine.world.signals = signals
     place = Place(source.shown, 1, 1)
     guarded(machine, lambda: machine.run_module(source, source.module_name) and None, place)
     module = machine.modules[source.shown]

@@ -78,7 +78,7 @@ from ros2cc_extract.spec.effects import (
 from ros2cc_extract.spec.model import ActivityKind
 
 _KEPT = 'it is kept in a collection, and the code that takes it out could not be followed'
-NOWHERE = Place('')
+_THERE = 'what the loop asks for is perhaps there at first'
 _OF_FORK = 'a child of os.fork may wait for a lock that another thread held then'
 # What is waited for of one object may be several things.
 _PARTS = {Word.GET: ' (room)', Word.DONE: ' (tasks done)'}
@@ -111,7 +111,7 @@ class UnitWaits(DataWriters):
 
     def of_set_up(self, raws: list[Blocking]) -> tuple[tuple[Blocking, Blocking], ...]:
         """Waits of code that no callback runs, each as it was met and as it is in the unit."""
-        doer = ActivityState(ActivityKind.MAIN, NOWHERE, effects=EffectLog(blocking=raws))
+        doer = ActivityState(ActivityKind.MAIN, Place(''), effects=EffectLog(blocking=raws))
         kept = self._kept[id(doer)] = self._keep(doer)
         named = self.of(doer)
         del self._kept[id(doer)]
@@ -278,6 +278,7 @@ class UnitWaits(DataWriters):
         by = [writer for writer, _ in self._writes(on)]
         why = data_is_written_elsewhere(self._world, on.names)
         why = why or (None if by else is_handed_over(self._world, on.holders))
+        why = why or (None if by or not on.is_open_at_first else Unknown(_THERE, raw.source))
         unsure = why_gone(self._world, by, self._of_main_after(raw, doer), self._name)
         unsure = unsure or why_unspun(self._world, by, doer, self._name)
         if unsure is not None:

@@ -9,8 +9,9 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.wording import called, shown
 from ros2cc_extract.findings.races.flag_locks import shared_by
-from ros2cc_extract.findings.races.harms import Use, uses_cleared
+from ros2cc_extract.findings.races.harms import uses_cleared
 from ros2cc_extract.findings.races.races import RaceKind, races_of
+from ros2cc_extract.findings.races.uses import Use
 from ros2cc_extract.findings.rules.races.lost_update import hit_of
 from ros2cc_extract.findings.waits.overlap import is_quick, overlaps_itself
 from ros2cc_extract.findings.waits.verdicts import SELF_OVERLAP, refuting_run

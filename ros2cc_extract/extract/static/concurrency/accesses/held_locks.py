@@ -44,7 +44,9 @@ def held_over(world: ConcurrentWorld, on: Value | None) -> tuple[str, ...]:
 
 def taking_of(world: ConcurrentWorld, thing: Instance) -> str:
     """What the wait for a semaphore is called; a lock of asyncio is one, of one permit."""
-    names = (cls.name for cls in thing.mro if isinstance(cls, Library))
+    names = [cls.name for cls in thing.mro if isinstance(cls, Library)]
+    if 'threading.Lock' in names:
+        return 'Lock.acquire'
     if not any(name.startswith('asyncio.') for name in names):
         return 'Semaphore.acquire'
     return f'{AWAIT} asyncio.Lock.acquire' if world.is_on_loop else 'asyncio.Lock.acquire'
@@ -60,6 +62,13 @@ def is_counter(world: ConcurrentWorld, thing: Instance) -> bool:
         return False
     given = world.wakings.get(id(thing), ())
     return not any(waking.by is None and waking.word is Word.RELEASE for waking in given)
+
+
+def is_signal(world: ConcurrentWorld, lock: Instance) -> bool:
+    """Whether others than those that take a lock give it back."""
+    state = lock.state
+    is_stock = isinstance(state, PlainState) and state.kind == 'semaphore'
+    return is_stock or is_counter(world, lock)
 
 
 def lock_of(thing: Value) -> Value:

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import field
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.accesses.signal_locks import are_signals
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.values.values import Function
 from ros2cc_extract.light_dataclasses import dataclass
@@ -173,7 +174,8 @@ def _taken_in(node: FunctionNode, world: ConcurrentWorld) -> Iterator[tuple[ast.
         if isinstance(part, ast.Call) and isinstance(part.func, ast.Attribute):
             method, lock = part.func.attr, ast.unparse(part.func.value)
             key = lock, method.removeprefix(_TAKES)
-            is_lock = lock.rpartition('.')[2] in world.locks
+            locks = world.locks.get(lock.rpartition('.')[2], [])
+            is_lock = bool(locks) and not are_signals(world, locks)
             if method.startswith(_TAKES) and is_lock and key not in reported:
                 reported.add(key)
                 yield part, *key

@@ -19,7 +19,14 @@ from ros2cc_extract.extract.static.python.machine.library_state import BESIDE, L
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
 from ros2cc_extract.extract.static.python.machine.world import World
-from ros2cc_extract.extract.static.python.values.values import Call, Heaped, Instance, Path, Value
+from ros2cc_extract.extract.static.python.values.values import (
+    Call,
+    Heaped,
+    Instance,
+    Path,
+    Scope,
+    Value,
+)
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import Blocking
@@ -176,6 +183,23 @@ class SetUpWait:
     in_handler: bool = False
 
 
+@dataclass(frozen=True, eq=False)
+class LockUse:
+    """Which callbacks and threads take a lock, and which give it back, by their identity."""
+
+    lock: Instance
+    takers: set[int | None] = field(default_factory=set)
+    givers: set[int | None] = field(default_factory=set)
+
+
+@dataclass(frozen=True, eq=False)
+class Cell:
+    """A variable of a function that functions inside of it share, see ``closure_cells.py``."""
+
+    scope: Scope
+    name: str
+
+
 @dataclass
 class ConcurrentWorld(World):
     """
@@ -217,6 +241,10 @@ class ConcurrentWorld(World):
         callback runs, and how many it had ``before_loop``, the outermost of those loops.
     :param main_takes: locks that the main program takes itself, with the number of handlers of
         signals by then.
+    :param lock_uses: who takes and gives back each lock; ``signals`` where those locks are made
+        of which an earlier run has found that they are signals, see ``signal_locks.py``.
+    :param cells: variables that inner functions share, by the name they are shown by, and
+        ``cell_scopes`` the calls of a function by the set-up that have such variables.
     :param loops_at: of a lock, how many of ``open_loops`` there were when it was taken.
     :param takes: how often each of them was taken; ``holds`` the number of the present hold,
         and ``begun`` where something was made or started in one.
@@ -243,6 +271,10 @@ class ConcurrentWorld(World):
     wakings: dict[int, list[Waking]] = field(default_factory=dict)
     asked: set[int] = field(default_factory=set)
     main_spins: int = 0
+    lock_uses: dict[int, LockUse] = field(default_factory=dict)
+    cells: dict[str, Cell] = field(default_factory=dict)
+    cell_scopes: dict[int, list[Scope]] = field(default_factory=dict)
+    signals: frozenset[Place] = frozenset()
     before_loop: int = 0
     made_at: dict[object, list[int]] = field(default_factory=dict)
     other_writes: dict[str, tuple[str | None, Place]] = field(default_factory=dict)

@@ -102,7 +102,7 @@ WAITS[f'{AWAIT} AsyncClient.wait_for_service'] = OF_OUTSIDE
 WAITS[f'{AWAIT} AsyncNode.wait_for_node'] = OF_OUTSIDE
 
 TAKES_PERMIT = frozenset(
-    {'Semaphore.acquire', 'asyncio.Lock.acquire', f'{AWAIT} asyncio.Lock.acquire'}
+    {'Semaphore.acquire', 'Lock.acquire', 'asyncio.Lock.acquire', f'{AWAIT} asyncio.Lock.acquire'}
 )
 """Waits for something of which there is a number, and that is given back."""
 

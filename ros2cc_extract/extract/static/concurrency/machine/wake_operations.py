@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ros2cc_extract.extract.static.concurrency.machine.counters import Rise
+from ros2cc_extract.extract.static.concurrency.machine.loop_formulas import LoopTest
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Hold
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
@@ -134,11 +135,15 @@ class DataRef(EntityRef):
     :param before: what the loop's own callback has written before the loop, and where.
     :param sent: topics of messages that come before the loop; ``sent_by_now`` of all, with those
         of its rounds.
+    :param tests: of the loop; ``is_open_at_first`` where it is not known that the loop waits for
+        this data at all, beside other data.
     :param rise: of a number that has to grow, see ``counted_tests.py``.
     """
 
     number = 0
     rise: Rise | None = None
+    tests: tuple[LoopTest, ...] = ()
+    is_open_at_first = False
     sent: frozenset[str] = frozenset()
     sent_by_now: frozenset[str] = frozenset()
     names: frozenset[str] = frozenset()

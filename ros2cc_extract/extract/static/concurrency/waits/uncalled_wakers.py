@@ -8,6 +8,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
+from ros2cc_extract.extract.static.concurrency.accesses import closure_cells
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS, noted_on, walk
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
@@ -145,7 +146,8 @@ def data_is_written_elsewhere(world: ConcurrentWorld, names: frozenset[str]) -> 
         uncalled_wakers(world, name.rpartition('.')[2], frozenset({Word.WRITE}), None)
         for name in names
     )
-    return next((why for why in found if why is not None), None)
+    known = next((why for why in found if why is not None), None)
+    return known or closure_cells.why_written_elsewhere(world, names)
 
 
 def is_handed_over(

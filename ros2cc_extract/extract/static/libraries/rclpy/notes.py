@@ -165,7 +165,7 @@ class RosNotes(StandardBlocks, RosMachine):
     def future(self, place: Place, kind: str, of: Value | None = None) -> Instance:
         """A new future of ``kind``."""
         made = Instance(Library('rclpy.task.Future'), place)
-        made.state = PlainState(kind, of=of, place=place)
+        made.state, made.born = PlainState(kind, of=of, place=place), self.world.effects
         return made
 
     def add_task(self, future: Instance, callback: Value, place: Place) -> None:

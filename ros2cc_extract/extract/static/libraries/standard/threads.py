@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.concurrency.accesses import lost_notifications
-from ros2cc_extract.extract.static.concurrency.accesses.held_locks import GIVEN, is_counter
+from ros2cc_extract.extract.static.concurrency.accesses import lost_notifications, signal_locks
+from ros2cc_extract.extract.static.concurrency.accesses.held_locks import GIVEN, is_signal
 from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ThreadState, thread_of
@@ -120,6 +120,19 @@ def _semaphore_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> 
     return NONE
 
 
+def _lock_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """A lock that is a signal has one permit."""
+    assert isinstance(receiver, Instance)
+    if receiver.place in machine.world.signals:
+        machine.store.write(receiver, INITIAL, Const(1))
+    return NONE
+
+
+def _lock_state(machine: ConcurrentMachine, instance: Instance) -> PlainState:
+    is_signal = instance.place in machine.world.signals
+    return PlainState('semaphore' if is_signal else 'lock', place=instance.place)
+
+
 def _condition_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, GIVEN, call.argument(0, 'lock') or NONE)
@@ -175,7 +188,7 @@ def _take_lock(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value
     if _is_set_up(machine):
         if not machine.world.path and _waits_for_it(call):
             machine.store.write(receiver, INITIAL, Const(0))
-    elif is_counter(machine.world, receiver) and _waits_for_it(call):
+    elif is_signal(machine.world, receiver) and _waits_for_it(call):
         machine.note_blocking('Lock.acquire', receiver, call.argument(1, 'timeout'), call.place)
     return _acquire(machine, receiver, call)
 
@@ -184,8 +197,9 @@ def _give_lock(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value
     assert isinstance(receiver, Instance)
     if _is_set_up(machine):
         machine.store.write(receiver, INITIAL, Const(1))
-    elif is_counter(machine.world, receiver):
+    elif is_signal(machine.world, receiver):
         machine.note_wake(receiver, Word.RELEASE, call.place)
+    signal_locks.note_given(machine.world, receiver)
     return _release(machine, receiver, call)
 
 
@@ -215,6 +229,8 @@ def _take(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _give(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Instance)
+    signal_locks.note_given(machine.world, receiver)
     machine.note_wake(receiver, Word.RELEASE, call.place)
     return _release(machine, receiver, call)
 
@@ -377,7 +393,9 @@ TABLE = Library(
             is_beside=True,
             methods={'start': _start, 'join': _JOIN_PROCESS, 'is_alive': _is_alive},
         ),
-        'threading.Lock': _plain('lock'),
+        'threading.Lock': LibraryClass(
+            state=_lock_state, init=_lock_init, methods=_PLAIN_METHODS['lock']
+        ),
         'threading.RLock': _plain('rlock'),
         'threading.Condition': _plain('condition'),
         'threading.Semaphore': _plain('semaphore'),

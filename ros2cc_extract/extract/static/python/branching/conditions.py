@@ -22,7 +22,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 
 
 def if_expression(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
-    holds = open_tests.decide(machine, node.test, frame)
+    holds = open_tests.decide_expression(machine, node, frame)
     if holds is not None:
         return machine.evaluate(node.body if holds else node.orelse, frame)
     implied = path_facts.implied_by(machine.world.tested)

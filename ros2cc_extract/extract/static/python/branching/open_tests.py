@@ -55,16 +55,37 @@ def decide_branch(machine: Machine, node: ast.If, frame: Frame, outer: ast.If) -
     """As ``decide``, for the arms of ``outer``: what they do rests on what is read here."""
     if machine.world.effects is None:
         return decide(machine, node.test, frame)
-    reading, found = machine.world.reading, set[str]()
+    place, found = frame.place(outer), set[str]()
+    holds = _decide_tested(machine, node, place, found, frame, is_first=node is outer)
+    machine.note_branch(node, found, place, frame, is_first=node is outer)
+    return holds
+
+
+def decide_expression(machine: Machine, node: ast.IfExp, frame: Frame) -> bool | None:
+    """The same for ``a if test else b``."""
+    if machine.world.effects is None:
+        return decide(machine, node.test, frame)
+    return _decide_tested(machine, node, frame.place(node), set(), frame, is_first=True)
+
+
+def _decide_tested(
+    machine: Machine,
+    node: ast.If | ast.IfExp,
+    place: Place,
+    found: set[str],
+    frame: Frame,
+    *,
+    is_first: bool,
+) -> bool | None:
+    """What follows at ``place`` rests on what is read for the test, which ``found`` gets."""
+    reading = machine.world.reading
     calls = reading.calls
     with reading.of(found):
         holds = decide(machine, node.test, frame)
-    place = frame.place(outer)
-    known = reading.tests.get(place, frozenset()) if node is not outer else frozenset()
+    known = frozenset() if is_first else reading.tests.get(place, frozenset())
     reading.tests[place] = known | found | computed_from(node.test, frame.sources)
-    if node is outer:
+    if is_first:
         reading.tested_at[place] = calls
-    machine.note_branch(node, found, place, frame, is_first=node is outer)
     return holds
 
 

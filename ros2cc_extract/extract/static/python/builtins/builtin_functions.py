@@ -14,6 +14,7 @@ from ros2cc_extract.extract.static.python.builtins.sorting import identity, in_o
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import of_items
+from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.dataclass_fields import field
 from ros2cc_extract.extract.static.python.objects.iterators import iterator
@@ -253,6 +254,7 @@ def _getattr(machine: Machine, receiver: Value, call: Call) -> Value:
     name = str(call.args[1].value)
 
     def of(owner: Value) -> Value:
+        machine.note_attribute(owner, name, AccessKind.READ, call.place)
         exists = machine.has_attribute(owner, name)
         default = call.argument(2)
         if exists is False and default is not None:

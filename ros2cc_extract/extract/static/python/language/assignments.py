@@ -66,11 +66,15 @@ class Assignments(Machine):
             self.store.write(scope.module, name, value)
             self.note_global(scope.module, name, AccessKind.WRITE, frame.place(target))
         elif name in scope.nonlocal_names:
-            self.store.write(_owner_of(name, scope), name, value)
+            owner = _owner_of(name, scope)
+            self.store.write(owner, name, value)
+            if isinstance(owner, Scope):
+                self.note_cell(owner, name, AccessKind.WRITE, frame.place(target))
         elif frame.function is None and not scope.parent and frame.qualname == '':
             self.store.write(scope.module, name, value)
         else:
             self.store.write(scope, name, value)
+            self.note_cell(scope, name, AccessKind.WRITE, frame.place(target))
 
     def _assign_attribute(self, target: ast.Attribute, value: Value, frame: Frame) -> None:
         owner = self.evaluate(target.value, frame)

@@ -20,7 +20,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Native,
     Value,
 )
-from ros2cc_extract.spec.effects import ADDS, TAKES
+from ros2cc_extract.spec.effects import ADDS, EMPTIES, TAKES
 
 _OF_ONE_ITEM = frozenset({'pop', 'remove', 'discard'})
 
@@ -83,6 +83,7 @@ def _refills(machine: Machine, call: ast.Call, owner: ast.expr, frame: Frame) ->
 _MOVES = {
     **dict.fromkeys(('append', 'appendleft', 'add', 'extend', 'extendleft'), ADDS),
     **dict.fromkeys(('pop', 'popleft', 'popitem', 'remove', 'discard'), TAKES),
+    'clear': EMPTIES,
 }
 
 

@@ -104,6 +104,7 @@ class Calls(Machine):
         if trying == (len(self.stack), self.store.depth) and self._surely_fails(function, call):
             raise CannotCallError
         scope = Scope(function.module, function.scope)
+        scope.function, scope.born = function, self.world.effects
         qualname = f'{function.qualname}.<locals>'
         frame = Frame(scope, function, qualname=qualname, path=self.world.path)
         for name, value in self.bind(function, call).items():

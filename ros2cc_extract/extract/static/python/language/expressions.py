@@ -165,11 +165,9 @@ def _name(machine: Expressions, node: ast.Name, frame: Frame) -> Value:
         value = _global_as_of_now(machine, node, frame)
     if value is not None:
         open_tests.note_name(machine, node.id, value, frame)
-        if isinstance(value, Choice):
-            return present(value)
-        if machine.world.effects is not None and node.id not in frame.scope.slots:
-            _note_free_name(machine, node, frame)
-        return value
+        if machine.world.effects is not None:
+            _note_name(machine, node, frame)
+        return present(value) if isinstance(value, Choice) else value
     builtin = machine.library(f'builtins.{node.id}')
     if isinstance(builtin, (Native, Const)) or constant_folding.is_builtin(node.id):
         return builtin
@@ -192,10 +190,11 @@ def _global_as_of_now(machine: Expressions, node: ast.Name, frame: Frame) -> Val
     return unset_global(machine, node, frame, reason) or NONE
 
 
-def _note_free_name(machine: Expressions, node: ast.Name, frame: Frame) -> None:
+def _note_name(machine: Expressions, node: ast.Name, frame: Frame) -> None:
     inner: Scope | None = frame.scope
     while inner is not None:
         if node.id in inner.slots:
+            machine.note_cell(inner, node.id, AccessKind.READ, frame.place(node))
             return
         inner = inner.parent
     machine.note_global(frame.module, node.id, AccessKind.READ, frame.place(node))

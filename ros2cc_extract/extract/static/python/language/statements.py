@@ -174,6 +174,7 @@ def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
 
 
 def _assign_to(machine: Statements, node: ast.Assign, frame: Frame) -> int:
+    _note_literal(machine, node.value, node.targets, frame)
     value = open_tests.evaluate_copied(machine, node.value, node.targets, frame)
     with machine.in_one_piece(node, frame):
         for target in node.targets:
@@ -182,8 +183,16 @@ def _assign_to(machine: Statements, node: ast.Assign, frame: Frame) -> int:
     return NEXT
 
 
+def _note_literal(
+    machine: Statements, value: ast.expr, targets: Sequence[ast.expr], frame: Frame
+) -> None:
+    if isinstance(value, ast.Constant) and machine.world.effects is not None:
+        machine.world.literals.update((frame.place(target), value.value) for target in targets)
+
+
 def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) -> int:
     if node.value is not None:
+        _note_literal(machine, node.value, [node.target], frame)
         value = open_tests.evaluate_copied(machine, node.value, [node.target], frame)
         machine.assign(node.target, value, frame)
         machine.world.reading.flowing = frozenset()

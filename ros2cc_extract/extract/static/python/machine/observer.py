@@ -23,6 +23,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Module,
     Mystery,
     Native,
+    Scope,
     Value,
 )
 from ros2cc_extract.source_locations import Place
@@ -39,6 +40,9 @@ class Observer:
 
     def note_global(self, module: Module, name: str, kind: AccessKind, place: Place) -> None:
         """A global is touched."""
+
+    def note_cell(self, scope: Scope, name: str, kind: AccessKind, place: Place) -> None:
+        """A variable of a function is touched, perhaps by a function inside of it."""
 
     def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
         """The object in a name or attribute gets a new content or value from its old one."""

@@ -11,7 +11,7 @@ import ast
 from collections import Counter
 from dataclasses import field
 from enum import Enum
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
@@ -133,6 +133,7 @@ class World:
     :param spent: the steps that such calls have taken, by the same, and under 0 of all.
     :param outside_objects: results of code that is not followed, except plain data; these objects
         may change by themselves.
+    :param literals: constants that are stored by their own text, by the place they are stored to.
     :param handed_over: collections that such code was given.
     :param doubted: classes and functions behind code that is not scanned, and what that is.
     :param doubted_calls: how often these were called.
@@ -204,6 +205,7 @@ class World:
     plain_of: int = 0
     spent: Counter[int] = field(default_factory=Counter)
     outside_objects: set[Unknown] = field(default_factory=set)
+    literals: dict[Place, Any] = field(default_factory=dict)
     handed_over: dict[Value, Unknown] = field(default_factory=dict)
     doubted: dict[Value, str] = field(default_factory=dict)
     doubted_calls: Counter[Value] = field(default_factory=Counter)

@@ -161,9 +161,13 @@ class Module(Heaped):
 
 
 class Scope(Heaped):
-    """Names of one call, class body or comprehension; ``parent`` is the enclosing function's."""
+    """
+    Names of one call, class body or comprehension; ``parent`` is the enclosing function's.
 
-    __slots__ = ('global_names', 'module', 'nonlocal_names', 'parent')
+    :ivar function: the function that is called, ``born`` the effects of the callback that calls.
+    """
+
+    __slots__ = ('born', 'function', 'global_names', 'module', 'nonlocal_names', 'parent')
 
     def __init__(self, module: Module, parent: Scope | None) -> None:
         super().__init__()
@@ -171,6 +175,8 @@ class Scope(Heaped):
         self.parent = parent
         self.global_names: set[str] = set()
         self.nonlocal_names: set[str] = set()
+        self.function: Function | None = None
+        self.born: object = None
 
 
 FunctionNode = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda

@@ -7,6 +7,7 @@ from dataclasses import field, replace
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
 from ros2cc_extract.extract.static.concurrency.machine.counters import MOST, Rise
+from ros2cc_extract.extract.static.concurrency.machine.loop_formulas import UNKNOWN
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     DataRef,
@@ -23,7 +24,16 @@ from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_off_
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import OUTSIDE, WORKING_LOOP, Access, Act, Blocking, Needs, Waker
+from ros2cc_extract.spec.effects import (
+    BEGINS,
+    OUTSIDE,
+    WORKING_LOOP,
+    Access,
+    Act,
+    Blocking,
+    Needs,
+    Waker,
+)
 
 Doer = EntityState | ActivityState
 
@@ -66,8 +76,19 @@ class DataWriters:
             effects = doer.effects or EffectLog()
             parts = (piece.access for piece in effects.pieces if piece.part)
             for access in (*effects.writes, *parts):
-                if access.name in on.names and not _is_before(access, on):
+                is_meant = access.name in on.names and not _is_before(access, on)
+                if is_meant and not self._leaves_as_is(access, on):
                     yield doer, access
+
+    def _leaves_as_is(self, access: Access, on: DataRef) -> bool:
+        """Whether a write stores what lets the loop go on, or another item than it asks for."""
+        if _is_of_other_item(access, on):
+            return True
+        known = self._world.literals.get(access.source, UNKNOWN) if access.source else UNKNOWN
+        if known is UNKNOWN or not on.tests:
+            return False
+        item = access.item if access.in_place else None
+        return all(test.stays(access.name, item, known) for test in on.tests)
 
     def _movers(self, taker: object, topic: MessageRef) -> tuple[Waker, ...]:
         """What brings it: the subscription, and a publisher that sends to it."""
@@ -159,6 +180,13 @@ class DataWriters:
 def _is_before(access: Access, on: DataRef) -> bool:
     """Whether it lies before the loop in the run that waits."""
     return (access.name, access.source) in on.before
+
+
+def _is_of_other_item(access: Access, on: DataRef) -> bool:
+    """Whether it stores an item of a container of which the loop asks for others."""
+    asked = {each for test in on.tests for each in test.formula.asked_of(access.name)}
+    is_known = access.in_place and access.item is not None and not access.item.endswith(BEGINS)
+    return is_known and bool(asked) and None not in asked and access.item not in asked
 
 
 def _all_recur(writes: Iterable[tuple[Doer, Access]]) -> bool:

@@ -113,7 +113,7 @@ def _never_holds(
         names = {each.id for each in walk(part) if isinstance(each, ast.Name)}
         if not names.isdisjoint(changed) or seen_by(machine, [part], frame).names:
             return False
-        options = _evaluated(machine, part, frame)
+        options = evaluated(machine, part, frame)
         return bool(options) and all(machine.truth(each) is truth for each in options)
 
     return is_surely(test, truth=False)
@@ -199,12 +199,13 @@ def _tells_time(machine: ConcurrentMachine, part: ast.expr, frame: Frame) -> boo
 def _functions(machine: ConcurrentMachine, called: ast.expr, frame: Frame) -> list[Function]:
     functions = (
         each.function if isinstance(each, Bound) else each
-        for each in _evaluated(machine, called, frame)
+        for each in evaluated(machine, called, frame)
     )
     return [each for each in functions if isinstance(each, Function)]
 
 
-def _evaluated(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> tuple[Value, ...]:
+def evaluated(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> tuple[Value, ...]:
+    """What an expression may give where it stands; nothing is noted."""
     world = machine.world
     noted, world.effects = world.effects, EffectLog()
     try:
@@ -218,7 +219,7 @@ def asked_of_none(
 ) -> ast.expr | None:
     """What is ``None`` for all that is known while a test asks it for more: that raises."""
     asked = (part.value for test in tests for part in walk(test) if isinstance(part, _OF_OWNERS))
-    return next((each for each in asked if _evaluated(machine, each, frame) == (NONE,)), None)
+    return next((each for each in asked if evaluated(machine, each, frame) == (NONE,)), None)
 
 
 def _looks(machine: ConcurrentMachine, value: ast.expr, frame: Frame) -> bool:
@@ -234,8 +235,8 @@ def _only_looks(machine: ConcurrentMachine, part: ast.expr, frame: Frame) -> boo
     if isinstance(part.func, ast.Attribute) and name_of(part) in _OF_TEXTS:
         return True
     if isinstance(part.func, ast.Attribute) and name_of(part) in _OF_COLLECTIONS:
-        return all(map(_is_data, _evaluated(machine, part.func.value, frame)))
-    called = _evaluated(machine, part.func, frame)
+        return all(map(_is_data, evaluated(machine, part.func.value, frame)))
+    called = evaluated(machine, part.func, frame)
     functions = [each.function if isinstance(each, Bound) else each for each in called]
     return bool(functions) and all(map(_asks_nobody, functions))
 

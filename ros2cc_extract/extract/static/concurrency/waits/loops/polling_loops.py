@@ -11,6 +11,7 @@ import ast
 from collections.abc import Sequence
 from dataclasses import replace
 
+from ros2cc_extract.extract.static.concurrency.machine.loop_formulas import LoopTest
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
@@ -35,6 +36,10 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     leaves,
     only_sleeps,
     runs_out,
+)
+from ros2cc_extract.extract.static.concurrency.waits.loops.values_that_stay import (
+    needed_of,
+    tests_of,
 )
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     awaits_each_round,
@@ -400,21 +405,38 @@ def _note(
         )
         machine.note_loop_on_data(call, raises, None, place)
     elif seen.names and not is_open:
-        reference = reference_to(seen)
-        effects = machine.world.effects or EffectLog()
-        reference.before = frozenset((access.name, access.source) for access in effects.writes)
-        reference.rise = rise_of(machine, shown, frame)
-        reference.sent = sent
-        reference.sent_by_now = sent_by_now(effects)
-        reference.minds_nothing = minds_nothing(loop)
         reason = None if end is End.DATA else Unknown('the loop also ends otherwise', place)
-        machine.note_loop_on_data(call, reference, reason, place)
+        known = tests_of(machine, loop, tests, shown, frame)
+        effects = machine.world.effects or EffectLog()
+        before = frozenset((access.name, access.source) for access in effects.writes)
+        for reference in _references(machine, seen, known, frame):
+            reference.before = before
+            reference.rise = rise_of(machine, shown, frame)
+            reference.sent, reference.sent_by_now = sent, sent_by_now(effects)
+            reference.minds_nothing = minds_nothing(loop)
+            machine.note_loop_on_data(call, reference, reason, place)
     elif (is_open or end is End.DATA or only_sleeps(loop, tests)) and not any(
         asks_for_service(test) for test in tests
     ):
         text = ' or '.join(ast.unparse(test) for test in tests)
         unknown = Unknown(f'what ends the loop: {text}', place)
         machine.note_loop_on_data(call, unknown, None, place)
+
+
+def _references(
+    machine: ConcurrentMachine, seen: Seen, tests: tuple[LoopTest, ...], frame: Frame
+) -> list[DataRef]:
+    """What stands for the data; several where each of several tests must come out otherwise."""
+    found = []
+    for test, is_sure in needed_of(machine, tests, frame):
+        names = test.formula.all_names & seen.names
+        if names:
+            part = reference_to(Seen(names, seen.holders, seen.outside))
+            part.tests, part.is_open_at_first = (test,), not is_sure
+            found.append(part)
+    whole = reference_to(seen)
+    whole.tests = tests
+    return found or [whole]
 
 
 def reference_to(seen: Seen) -> DataRef:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications import note_begun
-from ros2cc_extract.extract.static.libraries.rclpy.machine import message_waits
+from ros2cc_extract.extract.static.libraries.rclpy.machine import lost_tasks, message_waits
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
     CANCEL,
     note_end,
@@ -137,6 +137,7 @@ def _future_result(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     if receiver.state.kind == OF_POOL:
         machine.note_blocking('Future.result', receiver, call.argument(0, 'timeout'), call.place)
+    lost_tasks.note_asked_at_once(machine.world, receiver, call.place)
     return result_of(machine, receiver, call.place)
 
 
