@@ -105,8 +105,7 @@ class UnitWaits(DataWriters):
     def of(self, doer: Doer) -> tuple[Blocking, ...]:
         """The waits of ``doer``."""
         kept = self._kept[id(doer)]
-        pairs = zip(kept.raw, kept.named, strict=True)
-        waits = (self._with_wakers(raw, named, doer) for raw, named in pairs)
+        waits = (self._with_wakers(*pair, doer) for pair in zip(kept.raw, kept.named, strict=True))
         return tuple(unless_cancelled(wait, doer, self._world) for wait in waits)
 
     def of_set_up(self, raws: list[Blocking]) -> tuple[tuple[Blocking, Blocking], ...]:
@@ -204,8 +203,8 @@ class UnitWaits(DataWriters):
         """Whether a thread may set it; a callback that may, too, helps only if it comes."""
         if not isinstance(on, SettableRef):
             return False
-        wakings = self._world.wakings.get(on.number, ())
-        return any(each.word is Word.SET and is_activity(each.by) for each in wakings)
+        by = (each.by for each in self._world.wakings.get(on.number, ()) if each.word is Word.SET)
+        return any(map(is_activity, by))
 
     def _with_wakers(self, raw: Blocking, named: Blocking, doer: Doer) -> Blocking:
         spin = of_spin_aside(self._world, raw, named, doer)

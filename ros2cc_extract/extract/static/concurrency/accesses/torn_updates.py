@@ -68,7 +68,8 @@ def _read_whole(
         yield node.args[0]
     elif isinstance(function, (Mystery, Library)):
         own = [node.func.value] if isinstance(node.func, ast.Attribute) else []
-        for part in (*own, *node.args):
+        parts = [part for part in (*own, *node.args) if _is_held(part)]
+        for part in parts:
             values = options_of(_evaluated(machine, part, frame))
             if any(isinstance(v, Mystery) and v.text.startswith(_ARRAYS) for v in values):
                 yield part
@@ -80,6 +81,11 @@ def note_held(
     """An attribute holds an object for good, by which it is known under other names."""
     if isinstance(value, Mystery) and not collection_aliases.is_reassigned(owner, attribute):
         world.objects.setdefault(value, shown)
+
+
+def _is_held(node: ast.expr) -> bool:
+    """A name, or an attribute of one: to ask for its value runs nothing."""
+    return isinstance(node, ast.Name) or (isinstance(node, ast.Attribute) and _is_held(node.value))
 
 
 def _note(

@@ -17,7 +17,6 @@ from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 
 _TEXT_LIMIT = 60
-
 NO_CALLER = 'no caller is known'
 NOT_FOLDED = 'an expression that could not be folded'
 OF_CALLBACK = 'argument of a callback'
@@ -162,7 +161,7 @@ class Module(Heaped):
 
 class Scope(Heaped):
     """
-    Names of one call, class body or comprehension; ``parent`` is the enclosing function's.
+    Names of one call, class body or comprehension, with the ``parent`` of its enclosing function.
 
     :ivar function: the function that is called, ``born`` the effects of the callback that calls.
     """
@@ -487,18 +486,15 @@ _STILL = ('is assigned anew by other methods', NOT_FOLDED)
 def is_number_or_text(value: Value) -> bool:
     """Whether ``value`` is a number or a text, so that no code of Python computes with it."""
     options = options_of(value)
-    known = [each for each in options if _is_plain(each)]
-    others = [each for each in options if not _is_plain(each)]
-    return bool(known) and all(isinstance(each, Mystery) and _stays_plain(each) for each in others)
+    return any(map(_is_plain, options)) and all(_is_plain(o) or _stays_plain(o) for o in options)
 
 
-def _stays_plain(value: Mystery) -> bool:
+def _stays_plain(value: Value) -> bool:
     """What holds a number at times and a field of a message at others holds numbers only."""
-    is_given = value.unknown.reason == OF_CALLBACK and '(' not in value.text
-    return value.unknown.reason.endswith(_STILL) or (is_given and '.' in value.text)
+    why, text = (value.unknown.reason, value.text) if isinstance(value, Mystery) else ('', '')
+    return why.endswith(_STILL) or (why == OF_CALLBACK and '(' not in text and '.' in text)
 
 
 def _is_plain(value: Value) -> bool:
-    if isinstance(value, Mystery):
-        return value.is_plain
-    return isinstance(value, Const) and isinstance(value.value, _PLAIN)
+    is_known = isinstance(value, Const) and isinstance(value.value, _PLAIN)
+    return is_known or (isinstance(value, Mystery) and value.is_plain)
