@@ -10,6 +10,7 @@ Runs inside the user's process: the standard library only.
 from __future__ import annotations
 
 import sys
+from functools import cache
 from types import FrameType
 from typing import Any
 
@@ -27,8 +28,14 @@ def has_global_lock() -> bool:
     return enabled is None or bool(enabled())
 
 
+@cache
 def allow_instructions() -> None:
-    """Before ``sys.settrace``: Python 3.12 asks only there whether a tracer wants instructions."""
+    """
+    Before ``sys.settrace``: Python 3.12 asks only there whether a tracer wants instructions.
+
+    Once is enough for all threads, and must be: CPython 3.12.1 crashes in a function that has
+    asked for itself and runs once more in another thread (seen on 3.12.1, not on 3.11.7, 3.13.0).
+    """
     sys._getframe().f_trace_opcodes = True
 
 
