@@ -18,6 +18,7 @@ from ros2cc_extract.findings.base.wording import (
     shown,
 )
 from ros2cc_extract.findings.rules.deadlocks.own_group_call import shut_out_by
+from ros2cc_extract.findings.rules.starvation import group_overload
 from ros2cc_extract.findings.waits.long_held_locks import LongHold, long_holds
 from ros2cc_extract.findings.waits.remedies import AWAIT_SLEEP, is_on_loop
 from ros2cc_extract.findings.waits.waits import AnyWait, Wait, WaitKind, waits_of
@@ -48,13 +49,19 @@ def find(context: Context) -> Iterator[Hit]:
             long = [wait for wait in sleeps if seconds_of(wait) >= short]
         if not long and least_slept_s(own[0].caller.blocking) >= short:
             long = [wait for wait in own if not wait.block.conditional]
-        if long:
+        if long and not _is_told_of_group(own[0].caller, context):
             hits = list(_hits(tuple({wait.place: wait for wait in long}.values()), context))
             reported |= {subject for hit in hits for subject in hit.subjects}
             yield from hits
     for hold in long_holds(context, LONG_SLEEP_S):
         if hold.wait.caller.name not in reported:
             yield _of_lock(hold)
+
+
+def _is_told_of_group(caller: Callback, context: Context) -> bool:
+    """Whether CC202 says of a group of one's own that it has no time for the others."""
+    hits = () if _holds_services(caller, context) else group_overload.find(context)
+    return any(caller.name in hit.subjects for hit in hits)
 
 
 def _of_lock(hold: LongHold) -> Hit:
