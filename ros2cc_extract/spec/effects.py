@@ -221,8 +221,9 @@ class Access:
         name of its own.
     :param admits: true for a read of a goal callback because of which it turns goals down.
     :param later: true for the use of an object where something was called since it was tested.
-    :param joins: of a write, the attribute of the same object that was written before it and
-        belongs with it; threads may be switched between the two.
+    :param joins: of a write, the attribute of the same object that was written before it, where
+        others may run between the two.
+    :param akin: both values were taken from one thing.
     """
 
     name: str
@@ -245,6 +246,7 @@ class Access:
     admits: bool = False
     later: bool = False
     joins: str | None = None
+    akin: bool = False
     chain: tuple[Place, ...] = ()
 
 

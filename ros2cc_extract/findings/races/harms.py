@@ -53,7 +53,7 @@ def uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
 
 def torn_states(one: Doer, other: Doer, pauses: Doer | None = None) -> Iterator[tuple[Use, Use]]:
     """
-    Attributes that belong together, read by one while the other has written half of them.
+    Attributes that one reads together while the other has written half of them.
 
     :param pauses: the only one of them whose thread others may have in between: while it waits.
     """
@@ -65,7 +65,7 @@ def torn_states(one: Doer, other: Doer, pauses: Doer | None = None) -> Iterator[
 
 
 def written_before(last: Access, writer: Doer) -> Access | None:
-    """The write of the attribute that ``last`` belongs with."""
+    """The write of the attribute that stands before ``last``."""
     firsts = [each for each in writes_of(writer).get(last.joins or '', ()) if not each.in_place]
     before = [each for each in firsts if steps(each) < steps(last)]
     return max(before, key=steps, default=None)

@@ -38,8 +38,8 @@ def describe(race: Race) -> str:
         f'{others} may change {it} in between: what was read may no longer hold',
         RaceKind.WHOLE_UPDATE: f'{first} updates {names} from {old} without a lock, and {others} '
         f'may write {it} at the same time: {IN_ONE_PIECE}',
-        RaceKind.TORN_STATE: f'{first} reads {names}, which belong together, and {others} may '
-        'have written only some of them by then: new values stand beside old ones',
+        RaceKind.TORN_STATE: f'{first} reads {names}, and {others} may have written only some of '
+        'them by then: new values stand beside old ones',
         RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {names} at the same time: the '
         'last one wins',
     }[race.kind]

@@ -123,9 +123,9 @@ class Race:
 
     @property
     def is_over_wait(self) -> bool:
-        """Whether the other waits between its writes of attributes that belong together."""
+        """Whether the other waits between its writes of attributes that are of one thing."""
         return any(
-            waits(first, last, use.doer)
+            last.akin and waits(first, last, use.doer)
             for use in self.others
             for last in use.doer.writes
             if last.name in self.names and (first := written_before(last, use.doer)) is not None

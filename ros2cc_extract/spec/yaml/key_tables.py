@@ -145,6 +145,7 @@ ACCESS = record(
                 ('admits', 'admits', FLAG),
                 ('later', 'later', FLAG),
                 ('joins', 'joins', optional(TEXT)),
+                ('akin', 'akin', FLAG),
                 ('locks', 'locks', listing(TEXT)),
                 _SOURCE,
                 _CHAIN,

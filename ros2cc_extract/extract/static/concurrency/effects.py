@@ -162,6 +162,7 @@ class Effects(Waits):
         is_import = isinstance(reading.stored, (Library, Module))
         if kind is AccessKind.WRITE:
             flag_locks.put_up(self.world, name)
+        joins, is_akin = torn_state.written_with(self.world, name) if is_stored else (None, False)
         access = Access(
             name=name,
             source=place,
@@ -184,7 +185,8 @@ class Effects(Waits):
             lowers=is_stored and reading.stored != NONE and _is_false(reading.stored),
             found=reading.found_of(name, self.world.path) if is_stored else None,
             constant=is_stored and rests and isinstance(reading.stored, Const),
-            joins=torn_state.written_with(self.world, name) if is_stored else None,
+            joins=joins,
+            akin=is_akin,
             chain=self.world.chain[1:],
         )
         accesses = effects.reads if is_read else effects.writes

@@ -1,4 +1,4 @@
-"""Attributes that are written one after the other and belong together."""
+"""Attributes that are written one after the other, between which others may run."""
 
 from __future__ import annotations
 
@@ -53,7 +53,9 @@ def joins(stores: str, kind: str = '') -> list[tuple[str, str | None]]:
         ('if msg.header.stamp:\n    self.x = msg.pose.x\n    self.y = msg.pose.y', ''),
     ],
 )
-def test_values_of_one_message_or_over_a_wait_belong_together(stores: str, kind: str) -> None:
+def test_others_may_run_between_values_of_a_message_and_over_a_wait(
+    stores: str, kind: str
+) -> None:
     found = dict(joins(stores, kind))
     assert {name: found[name] for name in ('x', 'y')} == {'x': None, 'y': 'Follower.x'}
 
@@ -70,3 +72,18 @@ def test_values_of_one_message_or_over_a_wait_belong_together(stores: str, kind:
 )
 def test_what_nobody_can_see_half_of_does_not(stores: str) -> None:
     assert {other for _, other in joins(stores)} == {None}
+
+
+@pytest.mark.parametrize(
+    ('stores', 'akin'),
+    [
+        (MESSAGE, True),
+        ('self.x = self.n\ntime.sleep(0.1)\nself.y = self.n', True),
+        ('self.x = time.time()\ntime.sleep(0.1)\nself.y = msg.pose.y', False),
+    ],
+)
+def test_two_values_are_of_one_thing_where_both_name_it(stores: str, akin: bool) -> None:
+    text = PROGRAM.replace('STORES', textwrap.indent(stores, ' ' * 8).strip())
+    (unit,) = scan_text(text.replace('KIND', '')).units
+    (callback,) = (each for each in unit.callbacks if each.function_name == 'on_odom')
+    assert [write.akin for write in callback.writes] == [False, akin]

@@ -1,10 +1,11 @@
 """
-Attributes that are written one after the other and belong together.
+Attributes that are written one after the other, between which others may run.
 
 ``self.x = msg.x; self.y = msg.y``: code that runs in between finds a new one beside an old one.
-They belong together where both are taken from one argument of the function, or where it waits
-between the two. CPython may switch threads in between, as the fields of a message are properties
-written in Python (``*.py`` that rosidl_generator_py makes, Jazzy).
+Others may run in between where the function waits there, or takes the second from an argument:
+CPython may switch threads then, as the fields of a message are properties written in Python
+(``*.py`` that rosidl_generator_py makes, Jazzy). Two values are of one thing where the source
+names it in both.
 """
 
 from __future__ import annotations
@@ -26,12 +27,20 @@ def noted(reading: Reading, node: ast.Assign | ast.AugAssign, frame: Frame) -> I
     targets = node.targets if isinstance(node, ast.Assign) else [node.target]
     # All values of ``self.x, self.y = msg.x, msg.y`` are there before the first is stored.
     is_one = any(isinstance(target, (ast.Tuple, ast.List)) for target in targets)
-    before = reading.taken_from
+    before = reading.taken_from, reading.named
     reading.taken_from = frozenset() if is_one else _taken_from(node.value, frame)
+    reading.named = frozenset(ast.unparse(part) for part in ast.walk(node.value) if _names(part))
     try:
         yield
     finally:
-        reading.taken_from = before
+        reading.taken_from, reading.named = before
+
+
+def _names(part: ast.AST) -> bool:
+    """A name, but for that of the object itself, or an attribute of it."""
+    if isinstance(part, ast.Attribute):
+        return isinstance(part.value, ast.Name)
+    return isinstance(part, ast.Name) and part.id != 'self'
 
 
 def _taken_from(value: ast.expr, frame: Frame) -> frozenset[str]:
@@ -48,16 +57,16 @@ def _taken_from(value: ast.expr, frame: Frame) -> frozenset[str]:
     )
 
 
-def written_with(world: ConcurrentWorld, name: str) -> str | None:
-    """The attribute that was written before ``name``, and belongs with it."""
+def written_with(world: ConcurrentWorld, name: str) -> tuple[str | None, bool]:
+    """The attribute that was written before ``name``, and whether both are of one thing."""
     effects, reading = world.effects, world.reading
     if effects is None or isinstance(reading.stored, Const):
-        return None  # as a flag: who finds it up finds what was stored before
+        return None, False  # as a flag: who finds it up finds what was stored before
     whose = name.rpartition('.')[0], world.chain
     before = effects.stored_last.get(whose)
-    now = Stored(name, world.path, effects.behind, reading.taken_from)
+    now = Stored(name, world.path, effects.behind, reading.taken_from, reading.named)
     effects.stored_last[whose] = now
     if before is None or before.name == name or before.path != now.path:
-        return None
-    is_together = before.behind != now.behind or not before.taken_from.isdisjoint(now.taken_from)
-    return before.name if is_together else None
+        return None, False
+    is_parted = before.behind != now.behind or not before.taken_from.isdisjoint(now.taken_from)
+    return (before.name, not before.named.isdisjoint(now.named)) if is_parted else (None, False)

@@ -53,6 +53,7 @@ class Reading:
     :param stored: the value that is being stored.
     :param is_whole: what is stored now is read and stored in one piece, see ``atomic_updates.py``.
     :param taken_from: arguments of the function that what is stored now was taken from.
+    :param named: what the source names in that value.
     :param calls: how many calls there were.
     :param tested_at: how many there were before a test, by its place.
     :param refusing: names because of which a goal was turned down.
@@ -74,6 +75,7 @@ class Reading:
     stored: Value | None = None
     is_whole: bool = False
     taken_from: frozenset[str] = frozenset()
+    named: frozenset[str] = frozenset()
     down: dict[tuple[Place, int], frozenset[str]] = field(default_factory=dict)
     found: dict[tuple[Place, int], dict[str, str]] = field(default_factory=dict)
     asked: dict[Place, Asked] = field(default_factory=dict)

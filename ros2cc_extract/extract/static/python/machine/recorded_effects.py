@@ -36,12 +36,14 @@ class Stored:
 
     :param behind: the last wait that lay behind it.
     :param taken_from: arguments of the function that the value was taken from.
+    :param named: what the source names in the value.
     """
 
     name: str
     path: Path
     behind: object
     taken_from: frozenset[str]
+    named: frozenset[str]
 
 
 @dataclass
