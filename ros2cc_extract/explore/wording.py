@@ -132,8 +132,11 @@ def file_name(found: Found, number: int) -> str:
 
 
 def shown_path(file: str) -> str:
-    """From the current folder where the file is below it."""
-    relative = os.path.relpath(file)
+    """From the current folder where the file is below it, else as it is."""
+    try:
+        relative = os.path.relpath(file)
+    except (ValueError, OSError):
+        return file
     return file if relative.startswith('..') else relative
 
 

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
+
+import pytest
 
 from ros2cc_extract.confirm.observations import Sample
 from ros2cc_extract.explore.failures import Failure, Kind, hang, stands
+from ros2cc_extract.explore.wording import shown_path
 from ros2cc_extract.extract.live.hang_analysis.frame_waits import Kind as Waits
 from ros2cc_extract.extract.live.hang_analysis.frame_waits import Wait
 from ros2cc_extract.extract.live.hang_analysis.samples import Activity, Frame, Look
@@ -97,3 +101,16 @@ def test_what_may_still_end_only_stands() -> None:
         assert stands([sample(0, other), sample(7, other)]) is None, 'it is for others to end it'
     timed = replace(waits, wait=Wait(Waits.EVENT, timed=True))
     assert stands([sample(0, timed), sample(7, timed)]) is None
+
+
+def test_a_path_that_leads_nowhere_is_shown_as_it_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    paths = {'': '', '/opt/arm.py': '/opt/arm.py', str(tmp_path / 'arm.py'): 'arm.py'}
+    assert {path: shown_path(path) for path in paths} == paths
+    gone = tmp_path / 'gone'
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    assert shown_path('arm.py') == 'arm.py'
