@@ -100,9 +100,11 @@ def _program(body: str, group: str, threads: int, **names: str) -> str:
     )
 
 
-def _with_tasks(tasks: int) -> str:
+_MAKES = '    executor.create_task(crowd.ask)\n'
+
+
+def _with_tasks(made: str) -> str:
     """Tasks that are made before the spin, on two threads."""
-    made = ''.join('    executor.create_task(crowd.ask)\n' for _ in range(tasks))
     added = '    executor.add_node(Crowd())\n'
     crowd = f'    crowd = Crowd()\n    executor.add_node(crowd)\n{made}'
     return _program(_TASK, '', 2).replace(added, crowd)
@@ -115,12 +117,13 @@ HANG = {
     'call': _program(_CALL, _ANY, 2),
     'lock_on_one_thread': _program(_LOCK, _ANY, 1),
     'lock_on_three_threads': _program(_LOCK, _ANY, 3),
-    'two_tasks': _with_tasks(2),
+    'two_tasks': _with_tasks(_MAKES * 2),
+    'tasks_of_a_loop': _with_tasks(f'    for _ in range(2):\n    {_MAKES}'),
 }
 END = {
     'event': _program(_EVENT, _ONE_BY_ONE, 2, **_EVENTS),
     'call': _program(_CALL, _ONE_BY_ONE, 2),
     'lock_on_one_thread': _program(_LOCK, _ONE_BY_ONE, 1),
     'lock_on_three_threads': _program(_LOCK, _ONE_BY_ONE, 3),
-    'one_task': _with_tasks(1),
+    'one_task': _with_tasks(_MAKES),
 }

@@ -17,7 +17,7 @@ def find(context: Context) -> Iterator[Hit]:
                 place=wait.place,
                 message=f'{wait.caller.display_name} awaits asyncio.sleep, but the executor '
                 'runs its coroutine, not asyncio: it raises RuntimeError',
-                help='let a timer that cancels itself go on after the pause, or await a future '
+                help='do the rest in a timer that cancels itself, or await a future '
                 'that a timer in another callback group sets',
                 subjects=(wait.caller.name,),
                 chain=wait.chain,
@@ -55,7 +55,7 @@ class Arm(Node):
         self.open_gripper()
         self.later = self.create_timer(1.0, self.close_gripper)  # which cancels the timer
 """,
-    mend='Let a timer that cancels itself go on after the pause, or await a future that a timer '
+    mend='Do the rest in a timer that cancels itself, or await a future that a timer '
     'in another callback group sets.',
     find=find,
 )

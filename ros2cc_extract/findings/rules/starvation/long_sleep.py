@@ -199,7 +199,7 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
         place=wait.place,
         message=f'{wait.caller.display_name} {_how_long(wait)}{_how_often(more, wait)} and '
         f'holds {held}: {" and ".join(stopped)} {verb} that long',
-        help=_help(executor),
+        help=_help(wait, executor),
         severity=Severity.NOTE if _is_rare(wait, others) else None,
         subjects=(wait.caller.name,),
         chain=wait.chain,
@@ -212,11 +212,14 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
     )
 
 
-def _help(executor: Executor) -> str:
+def _help(wait: Wait, executor: Executor) -> str:
     if is_on_loop(executor):
         return AWAIT_SLEEP
     own = '' if is_one_thread(executor) else ', or give the callback a group of its own'
-    return f'let a timer that cancels itself go on after the pause{own}'
+    rest = 'do the rest in a timer that cancels itself'
+    if not _is_sleep(wait):
+        rest = 'let a timer look whether it is over'
+    return f'return at once, and {rest}{own}'
 
 
 def _is_rare(wait: Wait, others: Sequence[Callback]) -> bool:

@@ -12,10 +12,12 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMac
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     GroupState,
+    RosWorld,
     nodes_of,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import add_entity
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Call,
@@ -28,8 +30,8 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
-from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.model import EntityKind, GroupType
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.model import EntityKind, GroupType, When
 
 _MOST_ALIKE = 4
 """So many done-callbacks of one text are followed, each with the variables of its own."""
@@ -87,14 +89,29 @@ def add_task(
         is_same = is_here and _name_of(known.key) == _name_of(key)
         if is_same and _code_of(known.callback) == _code_of(run):
             _run_too(known, run)
+            _count_too(world, known, place)
             hand_over(world, known)
             note_made(world, kind.value, place)
             return None
     entity = add_entity(machine, node, kind, groupless(machine), place)
     entity.callback, entity.key = run, key
-    entity.count = 1
+    if world.when is not When.START:
+        entity.count = 1
     hand_over(world, entity)
     return entity
+
+
+def _count_too(world: RosWorld, known: EntityState, place: Place) -> None:
+    """What the set-up makes once more before anything spins is one more task."""
+    is_set_up = world.when is When.START and known.when is When.START and not world.second_pass
+    if not is_set_up or isinstance(known.count, Unknown) or exclusive(known.path, world.path):
+        return
+    if known.path != world.path:
+        known.count = Unknown('made at one place, in several branches', place)
+    elif isinstance(world.count, Unknown):
+        known.count = world.count
+    else:
+        known.count += world.count
 
 
 def _run_too(known: EntityState, callback: Value | None) -> None:
