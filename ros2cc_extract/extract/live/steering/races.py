@@ -14,6 +14,7 @@ from __future__ import annotations
 import dis
 import os
 import threading
+import time
 from collections.abc import Callable
 from types import CodeType, FrameType
 from typing import Any
@@ -25,6 +26,9 @@ from .values import NOTHING, copied, shown, target, value
 Trace = Callable[[FrameType, str, Any], Any]
 # Long enough for a timer of a second.
 HELD_S = 1.5
+# How long both may come, then the other side is kept out, then the own one, and so on; in the end
+# both may come.
+TURNS_S = (3.0, 3.0, 3.0, 3.0, 6.0, 6.0)
 _MOST_TRIES = 16
 _MOST_FORCED = 3
 _READ, _USE, _WRITE, _SWITCH = 'read', 'use', 'write', 'switch'
@@ -64,6 +68,7 @@ class Race:
         self._other: Any = NOTHING
         self._tries = 0
         self._forced_times = 0
+        self._turns = _Turns()
         self.calls = _Calls()
 
     def of(self, frame: FrameType) -> Trace | None:
@@ -75,6 +80,7 @@ class Race:
             marks = self._known[code] = self._marks(code)
         if _WRITE not in marks.values() and _USE not in marks.values():
             return None
+        self._keep_out(code)
         trace_instructions(frame)
         return _Call(self, marks).trace
 
@@ -103,6 +109,23 @@ class Race:
                 marks[each.offset] = _SWITCH
         return marks
 
+    def _keep_out(self, code: CodeType) -> None:
+        """
+        Let one side begin only once the other is held, each side in its turn.
+
+        Else what comes often would leave nothing to the other that it could write over.
+        """
+        lines = {line for _, _, line in code.co_lines()}
+        is_own = any(map(self.own.contains, lines))
+        if is_own is any(each.contains(line) for each in self.others for line in lines):
+            return
+        with self._changed:
+            while self._held is None and self._tries < _MOST_TRIES:
+                left_s = self._turns.left_s(out=is_own)
+                if left_s <= 0:
+                    return
+                self._changed.wait(left_s)
+
     def is_own(self, frame: FrameType, line: int) -> bool:
         return _is_in(frame, line, self.own)
 
@@ -121,6 +144,7 @@ class Race:
                 return None
             self._tries += 1
             self._held, self._object, self._other = threading.get_ident(), owner, NOTHING
+            self._changed.notify_all()
             self._changed.wait_for(lambda: self._other is not NOTHING, HELD_S)
             self._held, self._object = None, None
             return () if self._other is NOTHING else (self._other,)
@@ -158,6 +182,27 @@ class Race:
                 lost=texts['own'] != texts['other'],
                 let_in=let_in or not has_global_lock(),
             )
+
+
+class _Turns:
+    """Which side is kept out, from the first time on that one comes."""
+
+    def __init__(self) -> None:
+        self._begun_at: float | None = None
+
+    def left_s(self, *, out: bool) -> float:
+        """
+        How much longer a side is kept out; 0 if it is not.
+
+        :param out: whether it is the side that has the own write.
+        """
+        now = time.monotonic()
+        end = self._begun_at = now if self._begun_at is None else self._begun_at
+        for number, seconds in enumerate(TURNS_S):
+            end += seconds
+            if now < end:
+                return end - now if number % 3 == (2 if out else 1) else 0.0
+        return 0.0
 
 
 class _Calls(threading.local):
