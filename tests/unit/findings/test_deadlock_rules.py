@@ -34,7 +34,7 @@ from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.waits.workers import SINGLE
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import Access, Act, Blocking
-from ros2cc_extract.spec.model import EntityKind, Executor, Spec, When
+from ros2cc_extract.spec.model import Callback, EntityKind, Executor, Spec, When
 
 
 def caller_and_client(executor: Executor, group: str, client_group: str) -> Spec:
@@ -447,6 +447,18 @@ def test_asyncio_sleep_kills_a_coroutine_but_a_sleep_of_zero_yields() -> None:
 def test_an_executor_spun_by_its_own_callback() -> None:
     assert nested(threads(4), 'executor', 'executor.spin_once') == ['CC107:40 warning']
     assert nested(threads(4), 'another', 'executor.spin_once') == ['CC120:40 note']
+
+
+def test_a_nested_spin_that_can_run_nothing_else_is_a_note_where_nothing_refuses_it() -> None:
+    def of(release: str | None, *more: Callback) -> list[str]:
+        waits = calls('executor', call='executor.spin_once')
+        spec = unit(ONE_THREAD, timer('tick', blocking=waits), timer('tock'), *more)
+        return [each for each in found(replace(spec, rclpy=release)) if each.startswith('CC1')]
+
+    assert of('7.1.6') == ['CC107:40 note']
+    assert of('7.1.6', timer('blink', 'other')) == ['CC107:40 warning']
+    assert of('7.1.9') == ['CC107:40']
+    assert of(None) == ['CC107:40 warning']
 
 
 def test_execute_callback_waits_outside_every_group() -> None:
