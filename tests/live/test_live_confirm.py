@@ -262,3 +262,19 @@ def test_an_action_that_is_always_waited_for_in_vain(rclpy_python: str, tmp_path
     found = confirm(schedule, rclpy_python, LIMIT_S).judgement
     assert found.outcome is Outcome.CONFIRMED, found
     assert found.reason.startswith('took the whole time-out of 1 s')
+
+
+def test_libraries_that_spin_or_wait_are_stood_in_for(rclpy_python: str) -> None:
+    """What they do with the executor is known, so a stand-in does it too."""
+    nodes = ('a11_navigator_in_callback', 'f2_buffer_client_on_one_thread')
+    tried = [each for name in nodes for each in schedules(BUGS / f'{name}.py', '7.1.6')]
+
+    def shown(schedule: Schedule) -> str:
+        found = confirm(schedule, rclpy_python, LIMIT_S, stubs=True).judgement
+        return f'{schedule.code} {found.outcome.value}: {found.reason}'
+
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        said = list(pool.map(shown, tried))
+    answer = 'CC107 confirmed: the answer of /navigate_to_pose is run by the nested spin at line'
+    assert said[:2] == [f'{answer} 16', f'{answer} 17']
+    assert said[2].startswith('CC102 confirmed: took the whole time-out of 3 s, 1 time'), said

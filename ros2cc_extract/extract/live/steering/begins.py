@@ -133,7 +133,7 @@ class Running:
 
     def taken(self, entity: Any) -> None:
         """A spin has taken it, to run it here or in a thread of its pool."""
-        is_answer = type(entity).__name__ == 'Client'
+        is_answer = type(entity).__name__ in ('Client', 'ActionClient')
         if not self._director.plan.points or not (is_of_program(entity) or is_answer):
             return
         found = self._director.point_of(sys._getframe(1))

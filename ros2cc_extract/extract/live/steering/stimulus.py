@@ -95,7 +95,9 @@ class Stimulus:
     def _report_when_ready(self) -> None:
         if self._ready is not None and any(self._others()):
             self._first = self._first or time.monotonic()
-            if time.monotonic() - self._first > GRACE_S + SETTLES_S:
+            # What was asked for last is offered last.
+            last = max((self._first, *self._seen.values()))
+            if time.monotonic() - last > GRACE_S + SETTLES_S:
                 with open(self._ready, 'x', encoding='utf-8'):  # noqa: PTH123
                     self._ready = None
 

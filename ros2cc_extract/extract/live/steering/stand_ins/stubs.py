@@ -35,7 +35,12 @@ TURN_S = 0.25
 _OF_EXCEPTIONS = ('Exception', 'Error', 'Warning', 'Interrupt')
 _SPREAD = opcode.opmap['UNPACK_SEQUENCE']
 # What they do with the executor is known: a stand-in does the same.
-_KNOWN = {'message_filters': 'message_filters'}
+_KNOWN = {
+    'message_filters': 'message_filters',
+    'nav2_simple_commander.robot_navigator': 'navigator',
+    'tf2_ros': 'buffer_client',
+    'tf2_ros.buffer_client': 'buffer_client',
+}
 # These are asked for where they may well be missing.
 _NEVER = ('rclpy', 'sitecustomize', 'usercustomize', '_ros2cc_live', 'ros2cc_extract')
 
