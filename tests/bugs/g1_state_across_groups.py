@@ -37,4 +37,4 @@ def main():
 if __name__ == '__main__':
     main()
 
-# finds: CC301:27 warning
+# finds: CC301:27 note

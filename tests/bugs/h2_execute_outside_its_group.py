@@ -38,4 +38,4 @@ def main():
 if __name__ == '__main__':
     main()
 
-# finds: CC303:23 warning
+# finds: CC303:23 note

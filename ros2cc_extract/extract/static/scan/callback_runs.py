@@ -21,6 +21,7 @@ from ros2cc_extract.extract.static.python.objects.reanalysis import both
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.exclusive_paths import IN_A_CALLBACK
 from ros2cc_extract.extract.static.python.values.values import (
+    OF_CALLBACK,
     Bound,
     Call,
     Heaped,
@@ -228,6 +229,6 @@ def _callback_arguments(entity: EntityState) -> list[Value]:
     if entity.argument is not None:
         return [entity.argument]
     return [
-        Mystery(Unknown('argument of a callback', entity.place), '')
+        Mystery(Unknown(OF_CALLBACK, entity.place), '')
         for _ in range(_PARAMETERS.get(entity.kind, 0))
     ]

@@ -117,6 +117,12 @@ def test_an_update_that_others_get_into_is_a_race(update: str) -> None:
         ('self.total += 1', 'self.total += len(self.text)', ['CC301 warning']),
         ('self.total += 1', 'old = self.total\nprint()\nself.total = old - 1', ['CC301 warning']),
         ('self.total += msg.data', 'self.total = 0', ['CC301 warning']),
+        # A field of a message that takes the place of a number is one.
+        ('self.total = msg.data', 'self.total -= 1', ['CC301 note']),
+        ('self.total = msg.data', 'if self.total > 3:\n    self.total -= 1', ['CC301 note']),
+        ('print(self.total)\nself.total = msg.data', 'self.total -= 1', ['CC301 warning']),
+        ('self.total = msg.data()', 'self.total -= 1', ['CC301 warning']),
+        ('self.total = msg', 'self.total -= 1', ['CC301 warning']),
     ],
 )
 def test_of_two_callbacks(x: str, y: str, expected: list[str]) -> None:

@@ -20,6 +20,7 @@ _TEXT_LIMIT = 60
 
 NO_CALLER = 'no caller is known'
 NOT_FOLDED = 'an expression that could not be folded'
+OF_CALLBACK = 'argument of a callback'
 
 
 class Value:
@@ -482,9 +483,13 @@ def is_number_or_text(value: Value) -> bool:
     options = options_of(value)
     known = [each for each in options if _is_plain(each)]
     others = [each for each in options if not _is_plain(each)]
-    return bool(known) and all(
-        isinstance(each, Mystery) and each.unknown.reason.endswith(_STILL) for each in others
-    )
+    return bool(known) and all(isinstance(each, Mystery) and _stays_plain(each) for each in others)
+
+
+def _stays_plain(value: Mystery) -> bool:
+    """What holds a number at times and a field of a message at others holds numbers only."""
+    is_given = value.unknown.reason == OF_CALLBACK and '(' not in value.text
+    return value.unknown.reason.endswith(_STILL) or (is_given and '.' in value.text)
 
 
 def _is_plain(value: Value) -> bool:
