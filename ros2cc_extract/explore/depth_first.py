@@ -24,6 +24,9 @@ from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
 
 Step = tuple[str, str]
 """The key of an activity, and where it stands."""
+# On a busy machine a message or a thread may be late. A run that strays says nothing, so it is
+# repeated this often.
+_MOST_REPEATED = 3
 # For all that may be ready soon: a timer of a second has to come first.
 GATHERS_S, SECONDS = 1.3, 6.0
 
@@ -103,16 +106,25 @@ class Search:
     How far a search has come.
 
     :param runs: processes; ``distinct`` of them had an order of their own.
-    :param strayed: runs in which the program did not do again what it had done.
+    :param strayed: prefixes that the program did not repeat, however often it was run.
     :param cut: runs that went on after their last step.
+    :param expected: callbacks that had begun when the program ran as it comes.
     """
 
     steps: int
+    expected: frozenset[str] = frozenset()
     runs: int = 0
     distinct: int = 0
     strayed: int = 0
     cut: int = 0
     is_over: bool = False
+    _begun: set[str] = field(default_factory=set)
+
+    def has_met_all(self, steps: Iterable[Sequence[Step]]) -> bool:
+        """Note which callbacks could be chosen; whether these were all that are expected."""
+        met = {callback_of(key) for each in steps for key, _ in each}
+        self._begun |= met
+        return self.expected <= met
 
     @property
     def words(self) -> str:
@@ -120,10 +132,13 @@ class Search:
         what = f'first {self.steps} steps' if self.cut else 'first run of each callback'
         if not self.is_over:
             return f'not complete: {self.distinct} orders of the {what} were run'
+        never = ', '.join(sorted(self.expected - self._begun))
+        if never:
+            return f'not complete: {self.distinct} orders were run, and {never} did not begin'
         if self.strayed:
             return (
                 f'not complete: {self.distinct} orders of the {what} were run, and the program '
-                f'did not repeat itself in {self.strayed} of {self.runs} runs'
+                f'did not repeat {self.strayed} of them in {1 + _MOST_REPEATED} runs each'
             )
         return (
             f'complete: all {self.distinct} orders of the {what}, up to the order of steps that '
@@ -146,6 +161,7 @@ def search(
     :param search_: is filled as it goes, as ``into`` is.
     """
     path: list[_Branch] = []
+    repeated = 0
     while not into.why_ended:
         if into.done >= budget.schedules:
             into.why_ended = 'all schedules of the budget were run'
@@ -161,7 +177,14 @@ def search(
             if into.found and budget.only_first:
                 into.why_ended = 'a failure was found'
                 return
-            _follow(path, process.schedules[0], dependence, search_)
+            may_repeat = repeated < _MOST_REPEATED
+            follows = _meets(path, process.schedules[0], search_) or not may_repeat
+            follows = follows and _follow(path, process.schedules[0], dependence, search_)
+            if not follows and may_repeat:
+                repeated += 1
+                continue
+            search_.strayed += not follows
+            repeated = 0
             if not _next(path, dependence):
                 search_.is_over = True
                 into.why_ended = 'there are no other orders'
@@ -178,25 +201,39 @@ def _row(number: int, path: Sequence[_Branch], steps: int) -> Row:
     }
 
 
-def _follow(path: list[_Branch], seen: Seen, dependence: Dependence, search_: Search) -> None:
-    """Add the moments that the run has come to behind the prefix that it was given."""
+def _meets(path: Sequence[_Branch], seen: Seen, search_: Search) -> bool:
+    """Whether a first run has met all callbacks that it may, unless something goes wrong in it."""
     search_.runs += 1
-    search_.cut += len(seen.choices) >= search_.steps
+    has_met_all = search_.has_met_all(seen.choosable)
+    return bool(path) or has_met_all or bool(seen.failures)
+
+
+def _follow(path: list[_Branch], seen: Seen, dependence: Dependence, search_: Search) -> bool:
+    """
+    Add the moments that the run has come to behind the prefix that it was given.
+
+    :return: whether it has followed the prefix. More may be ready than in an earlier run: then
+        that is tried too.
+    """
     given = len(path)
-    for number, (chosen, enabled) in enumerate(zip(seen.choices, seen.choosable, strict=True)):
-        if number < given:
-            if path[number].chosen != chosen or set(path[number].enabled) != set(enabled):
-                search_.strayed += 1
-                return
-            continue
+    steps = list(zip(seen.choices, seen.choosable, strict=True))
+    if len(steps) < given or not all(map(_is_repeated, path, steps)):
+        return False
+    search_.cut += len(steps) >= search_.steps
+    for branch, (_, enabled) in zip(path, steps, strict=False):
+        branch.enabled = tuple(enabled)
+    for chosen, enabled in steps[given:]:
         sleeping = _asleep_after(path, dependence)
         if chosen in sleeping:
-            return  # the same, but for independent steps, as a run before
+            return True  # the same, but for independent steps, as a run before
         path.append(_Branch(tuple(enabled), chosen, sleeping))
-    if len(seen.choices) < given:
-        search_.strayed += 1
-        return
     search_.distinct += 1
+    return True
+
+
+def _is_repeated(branch: _Branch, step: tuple[Step, Sequence[Step]]) -> bool:
+    chosen, enabled = step
+    return chosen == branch.chosen and set(branch.enabled) <= set(enabled)
 
 
 def _asleep_after(path: Sequence[_Branch], dependence: Dependence) -> frozenset[Step]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from typing import Any
 
 import pytest
@@ -22,7 +22,7 @@ Program = Mapping[str, Sequence[str]]
 class Simulated:
     """Activities with their steps; the chosen one goes on as long as it can."""
 
-    def __init__(self, program: Program, strays_in: int = 0) -> None:
+    def __init__(self, program: Program, strays_in: Container[int] = ()) -> None:
         self.program = program
         self.strays_in = strays_in
         self.orders: list[tuple[Step, ...]] = []
@@ -30,7 +30,7 @@ class Simulated:
     def run(self, rows: Sequence[Any]) -> Process:
         (row,) = rows
         left = {f'{label}#1': ['begin', *steps] for label, steps in self.program.items()}
-        if self.strays_in and len(self.orders) + 1 == self.strays_in:
+        if len(self.orders) + 1 in self.strays_in:
             left.pop(next(iter(left)))
         prefix = [tuple(each) for each in row['choices']]
         seen, last = Seen(row, begins=1), ''
@@ -51,8 +51,8 @@ class Simulated:
 def searched(
     program: Program, groups: Mapping[str, str] | None = None, steps: int = 50, **more: Any
 ) -> tuple[Search, Simulated, Exploration]:
-    simulated = Simulated(program, more.get('strays_in', 0))
-    found, so_far = Search(steps), Exploration()
+    simulated = Simulated(program, more.get('strays_in', ()))
+    found, so_far = Search(steps, frozenset(program)), Exploration()
     dependence = Dependence(groups or {}, ('lock',))
     search(simulated.run, dependence, found, Budget(schedules=more.get('most', 500)), so_far)
     return found, simulated, so_far
@@ -115,9 +115,26 @@ def test_a_budget_leaves_it_incomplete() -> None:
 
 
 def test_a_program_that_does_not_do_the_same_again_is_never_complete() -> None:
-    found, _, _ = searched({A: [READ, WRITE], B: [READ, WRITE]}, strays_in=2)
-    assert found.strayed == 1
-    assert 'did not repeat itself in 1 of ' in found.words and 'not complete' in found.words
+    found, _, _ = searched({A: [READ, WRITE], B: [READ, WRITE]}, strays_in=range(2, 500))
+    assert found.strayed
+    assert f'did not repeat {found.strayed} of them' in found.words
+    assert found.words.startswith('not complete')
+
+
+@pytest.mark.parametrize('late_in', [{1}, {2}, {3, 4}])
+def test_what_was_late_once_is_waited_for_in_another_run(late_in: set[int]) -> None:
+    program = {A: [READ, WRITE], B: [READ, WRITE]}
+    found, simulated, _ = searched(program, strays_in=late_in)
+    dependence = Dependence({}, ('lock',))
+    whole = [each for each in simulated.orders if len(each) == 6]
+    assert {as_class(each, dependence) for each in whole} == classes(program, dependence)
+    assert found.words.startswith('complete')
+
+
+def test_a_callback_that_never_begins_leaves_it_incomplete() -> None:
+    found, simulated, _ = searched({A: [READ], B: [READ]}, strays_in=range(1, 500))
+    assert found.words == f'not complete: 1 orders were run, and {A} did not begin'
+    assert len(simulated.orders) == 4
 
 
 NODE = """\

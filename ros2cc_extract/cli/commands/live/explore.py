@@ -167,7 +167,7 @@ def _explore(
                 deadline=deadline,
                 until=lambda _: args.first,
             )
-            _run_schedules(args, ready, units, deadline, so_far, show)
+            _run_schedules(args, ready, (scenario, units), deadline, so_far, show)
     except KeyboardInterrupt:
         so_far.why_ended = 'interrupted'
     _clear(stderr)
@@ -182,7 +182,7 @@ def _explore(
 def _run_schedules(
     args: argparse.Namespace,
     ready: Callable[[Sequence[Row]], Process],
-    units: Sequence[Spec],
+    looked: tuple[Scenario, Sequence[Spec]],
     deadline: float,
     so_far: Exploration,
     show: Callable[[Exploration], None],
@@ -199,7 +199,8 @@ def _run_schedules(
     if args.strategy != DEPTH_FIRST:
         explore(ready, Strategy(args.strategy), args.seed, budget, so_far, show)
         return
-    found = Search(args.steps)
+    scenario, units = looked
+    found = Search(args.steps, frozenset(scenario.known))
     try:
         search(ready, dependence_of(units), found, budget, so_far, show)
     finally:
