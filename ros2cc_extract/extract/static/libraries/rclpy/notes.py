@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.durations import (
     time_from_now,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
+from ros2cc_extract.extract.static.libraries.rclpy.machine.settled_loops import is_over_before
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, NodeState
 from ros2cc_extract.extract.static.libraries.rclpy.tables.async_nodes import (
     loop_node,
@@ -201,6 +202,10 @@ class RosNotes(StandardBlocks, RosMachine):
         task = self.future(place, OF_LOOP if loop is None else OF_POOL)
         note_its_end(self, task, place)
         return task
+
+    def is_over(self, node: ast.While, frame: Frame) -> bool:
+        """A callback may be made only behind a loop that its method comes to again."""
+        return is_over_before(self.world, node, frame.place(node).file)
 
     def note_discarded(self, value: Value, place: Place) -> None:
         """A coroutine or a task may be lost."""

@@ -174,7 +174,7 @@ def _or_else(machine: Machine, node: ast.For | ast.AsyncFor, flow: int, frame: F
 def run_while(machine: Machine, node: ast.While, frame: Frame) -> int:
     """Run a ``while``: one round of it, if it may have one."""
     holds, asked = open_tests.decide_loop(machine, node, frame)
-    if holds is False:
+    if holds is False or (holds is None and machine.is_over(node, frame)):
         return machine.execute_block(node.orelse, frame)
     implied, ready = path_facts.implied_by(machine.world.tested), machine.world.ready
     begun = machine.begin_loop(node, frame, implied)

@@ -101,6 +101,10 @@ class Observer:
     def note_lock_method(self, owner: Value, name: str) -> None:
         """A method of ``owner`` has run that is called like one of a lock."""
 
+    def is_over(self, node: ast.While, frame: Frame) -> bool:
+        """Whether the test of a ``while`` fails for certain, by what has run before."""
+        return False
+
     def begin_loop(self, node: ast.While, frame: Frame, implied: Implied | None) -> object:
         """Begin a ``while`` whose test shows ``implied``; ``end_loop`` is given the result."""
         return None
