@@ -170,6 +170,7 @@ def _plan(schedule: Schedule, folder: Path) -> str:
         'points': [asdict(each) for each in schedule.points],
         'race': None if schedule.race is None else asdict(schedule.race),
         'destroys': schedule.destroys,
+        'inside': schedule.runs_inside,
         'held': [asdict(each) for each in schedule.held],
     }
     return json.dumps(row)

@@ -121,6 +121,21 @@ def test_a_thread_that_passes_twice_stands_for_one(tmp_path: Path) -> None:
     assert director.is_open
 
 
+def test_what_was_held_is_taken_by_the_nested_spin_first(tmp_path: Path) -> None:
+    file = tmp_path / 'program.py'
+    names: dict[str, Any] = {}
+    exec(compile(PROGRAM, str(file), 'exec'), names)
+    at_act = point(file=str(file.resolve()), first=3, last=3)
+    director, _ = directed(tmp_path, points=[at_act], held=[{'key': 'part'}], inside=True)
+    director.arrive(0)
+    held, seen = Subscription(), []
+    assert not director.may_begin(held)
+    names['wait'](lambda: seen.append(director.may_begin(held)))
+    assert seen == [True, True]
+    director.taken_inside()
+    assert director.may_begin(held)
+
+
 def lines_told(
     tmp_path: Path, told: Callable[[], list[dict[str, Any]]], run: str, **place: Any
 ) -> list[tuple[str, int]]:

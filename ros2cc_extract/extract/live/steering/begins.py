@@ -139,6 +139,7 @@ class Running:
         found = self._director.point_of(sys._getframe(1))
         if found is not None and _is_in_callback(found[1]):
             name = f'the answer of {name_of(entity)}' if is_answer else _name(entity)
+            self._director.taken_inside()
             self._report.write('nested', point=found[0], name=name)
 
 

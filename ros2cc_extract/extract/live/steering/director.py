@@ -8,6 +8,7 @@ neighbours.
 from __future__ import annotations
 
 import os
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -21,6 +22,8 @@ from .surroundings import Surroundings
 # For the first arrival: an import of a large package and the discovery of DDS take seconds.
 _FIRST_S = 15.0
 _SOFT_S = 3.0
+# For the first look of a nested spin, on a busy machine.
+_INSIDE_FIRST_S = 0.5
 
 
 class Director:
@@ -39,6 +42,7 @@ class Director:
         self._arrived: set[tuple[int, int]] = set()
         self._give_up_at = time.monotonic() + _FIRST_S
         self.is_open = not plan.points
+        self._inside_until = 0.0
         #: Called once, before the first arrival.
         self.prepare: Callable[[], None] | None = None
         self._surroundings = Surroundings(plan.surroundings)
@@ -48,10 +52,19 @@ class Director:
         if not self._is_ready() and is_of_program(entity):
             return False
         if self.is_open:
-            return True
+            return time.monotonic() > self._inside_until or not self._is_for_inside(entity)
         held = [each for each in self.plan.held if each.is_of(entity)]
         self.look_at_the_clock()
         return self.is_open or not held or (self._is_late() and all(each.soft for each in held))
+
+    def _is_for_inside(self, entity: Any) -> bool:
+        """Whether the nested spin takes it first, and not the spin around it."""
+        held = any(each.is_of(entity) for each in self.plan.held)
+        return held and self.point_of(sys._getframe(2)) is None
+
+    def taken_inside(self) -> None:
+        """The nested spin has taken something: all others may, too."""
+        self._inside_until = 0.0
 
     def _is_ready(self) -> bool:
         """Whether what the node meets is there; only then may threads be given up."""
@@ -112,6 +125,8 @@ class Director:
     def _open(self, *, given_up: bool) -> None:
         if not self.is_open:
             self.is_open = True
+            if self.plan.inside and not given_up:
+                self._inside_until = time.monotonic() + _INSIDE_FIRST_S
             missing = [index for index, count in enumerate(self._missing) if count > 0]
             self._report.write('open', given_up=given_up, missing=missing)
             self._changed.notify_all()

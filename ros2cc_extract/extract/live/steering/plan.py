@@ -96,6 +96,7 @@ class Plan:
     :param surroundings: a file that is there once what the node meets outside is.
     :param race: two writes of one attribute to be forced, see ``races.py``.
     :param destroys: what the destroyer of an entity at the first point waits for: ``destroys.py``.
+    :param inside: what was held is to be run inside the first point, by the spin that it is.
     :param patience_s: how long after the first arrival the rest is waited for.
     """
 
@@ -106,6 +107,7 @@ class Plan:
         self.held = [Held(each) for each in row.get('held', ())]
         self.race: dict[str, Any] | None = row.get('race')
         self.destroys = str(row.get('destroys', ''))
+        self.inside = bool(row.get('inside', False))
         self.patience_s = float(row.get('patience_s', 4.0))
 
 
