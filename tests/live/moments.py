@@ -15,6 +15,7 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 
 from ros2cc_extract.errors import Ros2ccError
@@ -42,21 +43,53 @@ def main(python: str, count: int) -> int:
     judged: Counter[str] = Counter()
     first = random.Random(count).randrange(100_000)
     with own_environment() as environment, tempfile.TemporaryDirectory() as folder:
-        seeds = map(str, range(first, first + 100 * count))
-        process = subprocess.Popen(
-            [python, str(DRIVER), f'{folder}/ran.jsonl', *seeds], env=environment
-        )
+        programs = _Programs(python, first, count, environment, Path(folder))
         try:
-            while not Path(folder, 'ran.jsonl').exists():
-                time.sleep(0.1)
             for _ in range(count):
-                said[_at_this_moment(process.pid, judged)] += 1
+                said[_at_this_moment(programs.running(), judged)] += 1
                 time.sleep(random.uniform(0.0, MOST_APART_S))
         finally:
-            process.kill()
-            process.wait()
+            programs.end()
     print(f'{count} moments, from seed {first}: {dict(said)}; by the model: {dict(judged)}')
     return min(said[Verdict.DEADLOCK.value] + judged[WRONG], 1)
+
+
+class _Programs:
+    """Runs programs one after the other; one that ends the process is left out."""
+
+    def __init__(
+        self, python: str, first: int, count: int, environment: Mapping[str, str], folder: Path
+    ) -> None:
+        self._command = [python, str(DRIVER)]
+        self._first, self._count = first, count
+        self._environment = environment
+        self._folder = folder
+        self._process = self._started()
+
+    def running(self) -> int:
+        """Give the number of the process that runs them now."""
+        if self._process.poll() is not None:
+            ran = self._record.read_text(encoding='utf-8') if self._record.exists() else ''
+            self._first += ran.count('\n') + 1
+            self._process = self._started()
+        return self._process.pid
+
+    def end(self) -> None:
+        self._process.kill()
+        self._process.wait()
+
+    @property
+    def _record(self) -> Path:
+        return self._folder / f'{self._first}.jsonl'
+
+    def _started(self) -> subprocess.Popen[bytes]:
+        seeds = map(str, range(self._first, self._first + 100 * self._count))
+        process = subprocess.Popen(
+            [*self._command, str(self._record), *seeds], env=self._environment
+        )
+        while not self._record.exists() and process.poll() is None:
+            time.sleep(0.1)
+        return process
 
 
 def _at_this_moment(pid: int, judgements: Counter[str]) -> str:
