@@ -327,6 +327,9 @@ def _suspended(task: Any, objects: dict[int, dict[str, Any]]) -> dict[str, Any] 
     handler = getattr(task, '_handler', None)
     if task.done() or task.executing() or getattr(handler, 'cr_frame', None) is None:
         return None
+    executor = task._executor()
+    if executor is None or getattr(executor, '_is_shutdown', False):
+        return None  # nobody ever goes on with it
     owner = None
     rows: list[dict[str, Any]] = []
     future = None
@@ -341,10 +344,9 @@ def _suspended(task: Any, objects: dict[int, dict[str, Any]]) -> dict[str, Any] 
         handler = getattr(handler, 'cr_await', None) or getattr(handler, 'gi_yieldfrom', None)
     if future is None or len(rows) < 2:
         return None
-    executor = task._executor()
     return {
         'entity': owner,
-        'executor': id(executor) if executor is not None else None,
+        'executor': id(executor),
         'frames': rows,
         'future': _object(future, objects),
         'done': bool(future.done()),
