@@ -403,6 +403,35 @@ def test_coroutine_that_pauses_and_goes_on_is_reported(
     assert task.done()
 
 
+def test_a_coroutine_that_goes_on_when_another_thread_has_asked_it_in_vain_is_reported(
+    recorder: Recorder, told: Told, replaced: Any
+) -> None:
+    """That thread is at it when this one comes, and has found nothing to do."""
+
+    class Asked(Handler):
+        is_asked = False
+
+        def executing(self) -> bool:
+            return self.is_asked
+
+        def __call__(self) -> Any:
+            return super().__call__()
+
+    trace_runs(recorder, Asked, replaced)
+    trace_takes(recorder, Executor, replaced)
+    replaced(Executor, 'task_class', Asked)
+
+    async def wait() -> None:
+        await Pause()
+
+    task: Any = Executor()._make_handler(Entity(), 'node', None)
+    task._handler = wait()
+    task()
+    task.is_asked = True
+    task()
+    assert [name for name, _ in told()] == ['collect', 'suspend', 'resume']
+
+
 def test_work_outside_groups_is_reported(recorder: Recorder, told: Told, replaced: Any) -> None:
     def work() -> str:
         return 'worked'
