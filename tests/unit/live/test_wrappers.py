@@ -432,6 +432,29 @@ def test_a_coroutine_that_goes_on_when_another_thread_has_asked_it_in_vain_is_re
     assert [name for name, _ in told()] == ['collect', 'suspend', 'resume']
 
 
+@pytest.mark.parametrize('is_over', [False, True])
+def test_a_coroutine_goes_on_in_one_of_two_threads(
+    is_over: bool, recorder: Recorder, told: Told, replaced: Any
+) -> None:
+    """Both have found that it can; the second one is told that another thread is at it."""
+    trace_runs(recorder, Shared, replaced)
+    trace_takes(recorder, Executor, replaced)
+
+    async def wait_and_work() -> str:
+        await Pause()
+        return task.work()
+
+    with ThreadPoolExecutor(1) as second:
+        replaced(Executor, 'task_class', staticmethod(lambda _: Shared(second, is_over)))
+        task: Any = Executor()._make_handler(Entity(), 'node', None)
+        task._handler = wait_and_work()
+        task()
+        task()
+    names = [name for name, _ in told()]
+    assert names[:2] == ['collect', 'suspend']
+    assert sorted(names[2:]) == ['resume', 'resume', 'vain']
+
+
 def test_work_outside_groups_is_reported(recorder: Recorder, told: Told, replaced: Any) -> None:
     def work() -> str:
         return 'worked'

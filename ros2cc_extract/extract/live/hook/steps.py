@@ -296,7 +296,7 @@ class _Steps:
         elif task.executing() or task._ros2cc_suspended or not _is_paused(task):
             return
         is_work = type(record) is TaskRecord
-        if is_work and _was_in_vain(task):
+        if begun is not None and _was_in_vain(task):
             self._journal.note(VAIN, record.number)
             return
         if not task.done():
@@ -320,13 +320,13 @@ def _can_go_on(task: Any) -> bool:
 
 def _was_in_vain(task: Any) -> bool:
     """
-    Return whether another thread ran it: both had found it not begun.
+    Return whether another thread ran it: both had found it not begun, or able to go on.
 
     Two laps hand over one task, and two workers take it at a time (7.1, ``task.py``: the second
     one finds its lock taken).
     """
     if not task.done():
-        return bool(task.executing()) and not inspect.iscoroutine(task._handler)
+        return bool(task.executing())
     was_over, task._ros2cc_over = task._ros2cc_over, True
     return bool(was_over)
 
