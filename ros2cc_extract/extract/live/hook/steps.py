@@ -323,10 +323,11 @@ def _was_in_vain(task: Any) -> bool:
     Return whether another thread ran it: both had found it not begun, or able to go on.
 
     Two laps hand over one task, and two workers take it at a time (7.1, ``task.py``: the second
-    one finds its lock taken).
+    one finds its lock taken, a moment before it is said to be executing).
     """
     if not task.done():
-        return bool(task.executing())
+        lock = getattr(task, '_task_lock', None)
+        return bool(task.executing() or (lock is not None and lock.locked()))
     was_over, task._ros2cc_over = task._ros2cc_over, True
     return bool(was_over)
 
