@@ -144,6 +144,8 @@ def test_a_run_in_vain_is_left_out(tmp_path: Path) -> None:
         event(110, 11, 'run', 4),
         event(120, 12, 'run', 4),
         event(130, 12, 'vain', 4),
+        event(135, 12, 'resume', 6),
+        event(136, 12, 'vain', 6),
         event(140, 11, 'pause', 4),
     )
     assert [(e.thread, e.event, e.subject) for e in read.events()] == [

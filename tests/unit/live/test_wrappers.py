@@ -403,6 +403,58 @@ def test_coroutine_that_pauses_and_goes_on_is_reported(
     assert task.done()
 
 
+def test_a_coroutine_that_goes_on_when_another_thread_has_asked_it_in_vain_is_reported(
+    recorder: Recorder, told: Told, replaced: Any
+) -> None:
+    """That thread is at it when this one comes, and has found nothing to do."""
+
+    class Asked(Handler):
+        is_asked = False
+
+        def executing(self) -> bool:
+            return self.is_asked
+
+        def __call__(self) -> Any:
+            return super().__call__()
+
+    trace_runs(recorder, Asked, replaced)
+    trace_takes(recorder, Executor, replaced)
+    replaced(Executor, 'task_class', Asked)
+
+    async def wait() -> None:
+        await Pause()
+
+    task: Any = Executor()._make_handler(Entity(), 'node', None)
+    task._handler = wait()
+    task()
+    task.is_asked = True
+    task()
+    assert [name for name, _ in told()] == ['collect', 'suspend', 'resume']
+
+
+@pytest.mark.parametrize('is_over', [False, True])
+def test_a_coroutine_goes_on_in_one_of_two_threads(
+    is_over: bool, recorder: Recorder, told: Told, replaced: Any
+) -> None:
+    """Both have found that it can; the second one is told that another thread is at it."""
+    trace_runs(recorder, Shared, replaced)
+    trace_takes(recorder, Executor, replaced)
+
+    async def wait_and_work() -> str:
+        await Pause()
+        return task.work()
+
+    with ThreadPoolExecutor(1) as second:
+        replaced(Executor, 'task_class', staticmethod(lambda _: Shared(second, is_over)))
+        task: Any = Executor()._make_handler(Entity(), 'node', None)
+        task._handler = wait_and_work()
+        task()
+        task()
+    names = [name for name, _ in told()]
+    assert names[:2] == ['collect', 'suspend']
+    assert sorted(names[2:]) == ['resume', 'resume', 'vain']
+
+
 def test_work_outside_groups_is_reported(recorder: Recorder, told: Told, replaced: Any) -> None:
     def work() -> str:
         return 'worked'
@@ -421,13 +473,15 @@ def test_work_outside_groups_is_reported(recorder: Recorder, told: Told, replace
 class Shared(Handler):
     """Two workers take it at a time, and the second one finds its lock taken."""
 
+    says_so = True
+
     def __init__(self, second: ThreadPoolExecutor, is_over: bool) -> None:
         super().__init__(self.work)
         self.second, self.is_over = second, is_over
-        self.lock, self.met = Lock(), Event()
+        self._task_lock, self.met = Lock(), Event()
 
     def executing(self) -> bool:
-        return self.met.is_set() and not self._done
+        return self.says_so and self.met.is_set() and not self._done
 
     def work(self) -> str:
         taken = self.second.submit(self)
@@ -435,21 +489,22 @@ class Shared(Handler):
         return 'worked'
 
     def __call__(self) -> Any:
-        if self.lock.acquire(blocking=False):
-            with closing(SimpleNamespace(close=self.lock.release)):
+        if self._task_lock.acquire(blocking=False):
+            with closing(SimpleNamespace(close=self._task_lock.release)):
                 return super().__call__()
         self.met.set()
         if self.is_over:
-            self.lock.acquire(timeout=5.0)
+            self._task_lock.acquire(timeout=5.0)
         return None
 
 
-@pytest.mark.parametrize('is_over', [False, True])
+@pytest.mark.parametrize(('is_over', 'says_so'), [(False, True), (False, False), (True, True)])
 def test_a_run_in_vain_is_reported_as_such(
-    is_over: bool, recorder: Recorder, told: Told, replaced: Any
+    is_over: bool, says_so: bool, recorder: Recorder, told: Told, replaced: Any
 ) -> None:
-    """While another thread runs the task, or when it has done so."""
+    """While another thread runs the task, or is about to, or when it has done so."""
     trace_runs(recorder, Shared, replaced)
+    replaced(Shared, 'says_so', says_so)
     with ThreadPoolExecutor(1) as second:
         task = Shared(second, is_over)
         record = recorder.note_task(Entity(), 'task', task.work)

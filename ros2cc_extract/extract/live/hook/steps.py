@@ -40,6 +40,7 @@ _KEPT_WITH_TASKS = {
     '_ros2cc_record': None,
     '_ros2cc_submitted': False,
     '_ros2cc_suspended': False,
+    '_ros2cc_resumed': False,
     '_ros2cc_awaited': None,
     '_ros2cc_over': False,
 }
@@ -269,37 +270,45 @@ class _Steps:
     def __init__(self, recorder: Recorder) -> None:
         self._journal = recorder.journal
 
-    def begin(self, task: Any, record: Any) -> tuple[int, bool] | None:
-        """Give ``None`` when the task runs in another thread or has ended: nothing will happen."""
-        if task.executing() or task.done():
+    def begin(self, task: Any, record: Any) -> tuple[int, bool | None] | None:
+        """
+        Give when it began and whether that has been reported; ``None`` when nothing will happen.
+
+        Where another thread asks a coroutine whether it can go on, this one may still run it.
+        """
+        if task.done():
             return None
+        if task.executing():
+            return None if type(record) is TaskRecord else (_clock(), None)
         clock, moves = _clock(), _can_go_on(task)
         if moves:
-            self._report_begin(clock, record)
+            self._report_begin(clock, task, record)
         return clock, moves
 
-    def end(self, task: Any, record: Any, begun: tuple[int, bool] | None = None) -> None:
+    def end(self, task: Any, record: Any, begun: tuple[int, bool | None] | None = None) -> None:
         if begun is not None:
             clock, reported = begun
-            if not reported and not _can_go_on(task):
+            is_other = reported is None and (not task.done() or task._ros2cc_resumed)
+            if is_other or (reported is False and not _can_go_on(task)):
                 return
             if not reported:
-                self._report_begin(clock, record)
+                self._report_begin(clock, task, record)
         elif task.executing() or task._ros2cc_suspended or not _is_paused(task):
             return
         is_work = type(record) is TaskRecord
-        if is_work and _was_in_vain(task):
+        if begun is not None and _was_in_vain(task):
             self._journal.note(VAIN, record.number)
             return
         if not task.done():
             task._ros2cc_awaited = _innermost_future(task._handler)
-            task._ros2cc_suspended = True
+            task._ros2cc_suspended, task._ros2cc_resumed = True, False
         elif not is_work:
             return
         what = PAUSE if is_work else SUSPEND
         self._journal.note(what, record.number)
 
-    def _report_begin(self, clock: int, record: Any) -> None:
+    def _report_begin(self, clock: int, task: Any, record: Any) -> None:
+        task._ros2cc_resumed = True
         what = RUN if type(record) is TaskRecord else RESUME
         self._journal.put(clock, get_ident(), what, record.number)
 
@@ -311,13 +320,14 @@ def _can_go_on(task: Any) -> bool:
 
 def _was_in_vain(task: Any) -> bool:
     """
-    Return whether another thread ran it: both had found it not begun.
+    Return whether another thread ran it: both had found it not begun, or able to go on.
 
     Two laps hand over one task, and two workers take it at a time (7.1, ``task.py``: the second
-    one finds its lock taken).
+    one finds its lock taken, a moment before it is said to be executing).
     """
     if not task.done():
-        return bool(task.executing()) and not inspect.iscoroutine(task._handler)
+        lock = getattr(task, '_task_lock', None)
+        return bool(task.executing() or (lock is not None and lock.locked()))
     was_over, task._ros2cc_over = task._ros2cc_over, True
     return bool(was_over)
 

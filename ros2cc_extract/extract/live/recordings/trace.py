@@ -22,6 +22,7 @@ from ros2cc_extract.extract.live.recorder.events import (
     EVENT_NAMES,
     LOST,
     RAW_SUFFIX,
+    RESUME,
     RUN,
     THREAD_NAME,
     VAIN,
@@ -64,7 +65,7 @@ class Trace:
     :param lost: how often events came faster than they could be kept.
     :param count: how many events there are.
     :param reach: how many events must be held to put them in order.
-    :param vain: runs of tasks that another thread ran.
+    :param vain: steps of tasks that another thread took.
     """
 
     recording: Recording
@@ -101,7 +102,7 @@ def read_trace(recording: Recording, raw: Path | None = None) -> Trace | None:
     try:
         for fields, name in _raw_rows(path):
             _, thread, what, subject = fields
-            if what == RUN:
+            if what in (RUN, RESUME):
                 runs[thread, subject] = fields
             elif what == VAIN and (thread, subject) in runs:
                 vain.add(runs.pop((thread, subject)))
