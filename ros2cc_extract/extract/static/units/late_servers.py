@@ -102,13 +102,14 @@ def _servers_of(client: EntityState, wait: SetUpWait, world: RosWorld) -> Iterat
     """Those of its name, if not made on other branches than the wait, or by what nobody calls."""
     kind = SERVER_KINDS[client.kind]
     for each in world.entities:
-        is_same = each.kind is kind and _is_same_name(client, each)
+        is_same = each.kind is kind and is_same_name(client, each)
         is_met = each.when is not When.LATER and not exclusive(each.path, wait.outside.path)
         if is_same and is_met:
             yield each
 
 
-def _is_same_name(client: EntityState, server: EntityState) -> bool:
+def is_same_name(client: EntityState, server: EntityState) -> bool:
+    """Whether a server answers what a client asks, as far as names tell."""
     one, other = client.key, server.key
     if not isinstance(one, Const) or not isinstance(other, Const) or one.value != other.value:
         return False
