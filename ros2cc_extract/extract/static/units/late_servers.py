@@ -22,6 +22,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 )
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import Const, Instance
+from ros2cc_extract.extract.static.units.wakers.late_offers import is_same_name
 from ros2cc_extract.extract.static.units.whole_program.start_up import client_of
 from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import spun_beside
 from ros2cc_extract.light_dataclasses import dataclass
@@ -106,27 +107,6 @@ def _servers_of(client: EntityState, wait: SetUpWait, world: RosWorld) -> Iterat
         is_met = each.when is not When.LATER and not exclusive(each.path, wait.outside.path)
         if is_same and is_met:
             yield each
-
-
-def is_same_name(client: EntityState, server: EntityState) -> bool:
-    """Whether a server answers what a client asks, as far as names tell."""
-    one, other = client.key, server.key
-    if not isinstance(one, Const) or not isinstance(other, Const) or one.value != other.value:
-        return False
-    if client.node is server.node:
-        return True
-    name = str(one.value)
-    return name.startswith('/') or (
-        not name.startswith('~') and _namespace(client.node) == _namespace(server.node)
-    )
-
-
-def _namespace(node: Instance) -> object:
-    state = node.state
-    namespace = state.namespace if isinstance(state, NodeState) else None
-    if namespace is None:
-        return ''
-    return str(namespace.value).strip('/') if isinstance(namespace, Const) else namespace
 
 
 def _order(server: EntityState, wait: SetUpWait, world: RosWorld) -> _Order:

@@ -10,9 +10,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
-from ros2cc_extract.extract.static.python.values.values import Const
-from ros2cc_extract.extract.static.units.late_servers import is_same_name
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    EntityState,
+    NodeState,
+    RosWorld,
+)
+from ros2cc_extract.extract.static.python.values.values import Const, Instance
 from ros2cc_extract.spec.client_server_pairs import SERVER_KINDS
 from ros2cc_extract.spec.effects import Blocking, Needs, Waker
 from ros2cc_extract.spec.model import When
@@ -52,3 +55,24 @@ def offered_late(
 
 def _is_on_a_branch(server: EntityState) -> bool:
     return any(branch >= 0 for _, branch in server.path)
+
+
+def is_same_name(client: EntityState, server: EntityState) -> bool:
+    """Whether a server answers what a client asks, as far as names tell."""
+    one, other = client.key, server.key
+    if not isinstance(one, Const) or not isinstance(other, Const) or one.value != other.value:
+        return False
+    if client.node is server.node:
+        return True
+    name = str(one.value)
+    return name.startswith('/') or (
+        not name.startswith('~') and _namespace(client.node) == _namespace(server.node)
+    )
+
+
+def _namespace(node: Instance) -> object:
+    state = node.state
+    namespace = state.namespace if isinstance(state, NodeState) else None
+    if namespace is None:
+        return ''
+    return str(namespace.value).strip('/') if isinstance(namespace, Const) else namespace
