@@ -51,10 +51,19 @@ def _is_surely_cleared(mine: Sequence[Waking], reference: ResourceRef, world: Ro
     Whether a callback that comes again and again clears the event on all its branches.
 
     It may come before the wait, and the wait then ends as if nothing had set it. One that sets it
-    too leaves it as it is.
+    too leaves it as it is, and one that waits for it itself clears it only behind a set.
     """
     setters = [waking.by for waking in mine if not is_of_set_up(waking, world)]
     return bool(setters) and any(
-        isinstance(by, EntityState) and by.kind in RECURRING and by not in setters
+        isinstance(by, EntityState)
+        and by.kind in RECURRING
+        and by not in setters
+        and not _waits_for(by, reference)
         for by, _ in world.surely_cleared.get(reference.number, ())
     )
+
+
+def _waits_for(doer: EntityState, reference: ResourceRef) -> bool:
+    blocks = doer.effects.blocking if doer.effects is not None else []
+    resources = [block.resource for block in blocks]
+    return any(isinstance(r, ResourceRef) and r.number == reference.number for r in resources)
