@@ -26,7 +26,12 @@ from ros2cc_extract.generator.resources import (
     signals_of,
 )
 from ros2cc_extract.identity_memo import known_of, once
-from ros2cc_extract.spec.client_server_pairs import client_before, is_client, server_of
+from ros2cc_extract.spec.client_server_pairs import (
+    client_before,
+    is_client,
+    server_of,
+    servers_of,
+)
 from ros2cc_extract.spec.effects import RE_ENTRANT, TURN, Blocking
 from ros2cc_extract.spec.model import Activity, Callback, GroupType, Spec
 from ros2cc_extract.spec.releases.table import FUTURE_YIELDS_ITSELF
@@ -298,7 +303,7 @@ def is_absent(block: Blocking, spec: Spec) -> bool:
     if client is None:
         return False
     is_asked = client.name in _asked_for_answers(spec)
-    return is_client(client) and not is_asked and server_of(client, spec.callbacks) is None
+    return is_client(client) and not is_asked and not servers_of(client, spec.callbacks)
 
 
 @once

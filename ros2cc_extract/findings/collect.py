@@ -10,10 +10,12 @@ from ros2cc_extract.findings.base.assumptions import with_assumptions
 from ros2cc_extract.findings.base.model import Finding, Remark
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.races_across_executors import findings_across
+from ros2cc_extract.findings.rules.deadlocks.never_ends import RULE as NEVER_ENDS
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
 from ros2cc_extract.findings.rules.reading.diagnostics import UNREADABLE
 from ros2cc_extract.findings.rules.reading.unresolved import RULE as UNRESOLVED
 from ros2cc_extract.findings.rules.registry import BY_SLUG, RULES
+from ros2cc_extract.findings.rules.starvation.transform_wait import RULE as TRANSFORM_WAIT
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import Spec
 from ros2cc_extract.verify.results.rates import with_arrivals
@@ -21,6 +23,8 @@ from ros2cc_extract.verify.results.results import Verification
 
 OPEN_WAITS = (UNDECIDED.code, OUTSIDE_WAIT.code)
 """Reported for a wait if no other rule says more about it."""
+_COSTS = (TRANSFORM_WAIT.code,)
+"""What the time-out of one attempt costs."""
 _WEIGHTS = tuple(Severity)
 _OF_WAITS = ('CC1', 'CC2')
 
@@ -72,10 +76,16 @@ def all_findings(
 
 
 def _without_what_is_decided(findings: Sequence[Finding]) -> Iterator[Finding]:
-    """A wait is open only where no other rule, and no other unit, says more of its line."""
+    """
+    A wait is open only where no other rule, and no other unit, says more of its line.
+
+    And what a time-out costs matters only where the wait ever ends.
+    """
     reported = {_line(f) for f in findings if f.code[:3] in _OF_WAITS and f.code not in OPEN_WAITS}
+    endless = {_line(f) for f in findings if f.code == NEVER_ENDS.code}
     for finding in findings:
-        if finding.code not in OPEN_WAITS or _line(finding) not in reported:
+        is_decided = finding.code in OPEN_WAITS and _line(finding) in reported
+        if not is_decided and not (finding.code in _COSTS and _line(finding) in endless):
             yield finding
 
 

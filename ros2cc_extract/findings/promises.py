@@ -83,6 +83,7 @@ _FAMILIES: dict[Promise, set[str]] = {
 }
 """Claims of the model that have to hold for a promise."""
 _ON_WAITS = (Promise.DEADLOCK, Promise.WAITS, Promise.STARVATION)
+_ON_ENDS = (Promise.DEADLOCK, Promise.WAITS)
 _ASSUMED_ENDS = {OUTSIDE_WAIT.code: 'is assumed to end', UNDECIDED.code: 'is not decided'}
 
 
@@ -117,7 +118,8 @@ class _Unit:
     near: Sequence[Finding]
 
     def judgement(self, promise: Promise) -> Judgement:
-        broken = sorted({f.code for f in self.own if _breaks(f, promise)})
+        own = [f for f in self.own if not (promise in _ON_ENDS and self._is_timed(f))]
+        broken = sorted({f.code for f in own if _breaks(f, promise)})
         if broken:
             return Judgement(promise, Mark.BROKEN, ', '.join(broken))
         stuck = sorted({f.code for f in self.own if _breaks(f, Promise.WAITS)})
@@ -125,24 +127,36 @@ class _Unit:
             return Judgement(promise, Mark.BROKEN, ', '.join(stuck))
         if promise is Promise.DEADLOCK and any(map(self._is_of_several, self.own)):
             return Judgement(promise, Mark.BROKEN, NEVER_ENDS.code)
-        reason = next(self._doubts(promise), '')
+        reason = next(self._doubts(promise, own), '')
         if reason:
             return Judgement(promise, Mark.OPEN, reason)
-        assumed = answers_assumed(self.unit) if promise is Promise.WAITS else ''
+        assumed = self._assumed() if promise is Promise.WAITS else ''
         return Judgement(promise, Mark.KEPT, assumed)
+
+    def _is_timed(self, finding: Finding) -> bool:
+        """Whether it is about a wait that comes to an end in any case, by its time-out."""
+        doers = Context(self.unit).doers
+        here = [b for doer in doers for b in doer.blocking if b.source == finding.place]
+        return bool(here) and all(isinstance(block.seconds, float) for block in here)
+
+    def _assumed(self) -> str:
+        """By what waits end that the unit itself does not end."""
+        timed = [f for f in self.own if _breaks(f, Promise.WAITS) and self._is_timed(f)]
+        alone = [f'one by its time-out alone ({f.code} at {_at(f)})' for f in timed]
+        return '; '.join(filter(None, [answers_assumed(self.unit), *alone]))
 
     def _is_of_several(self, finding: Finding) -> bool:
         """Whether several units together stand still, as only their common model shows."""
         is_together = finding.unit is not None and finding.unit != self.unit.name
         return is_together and finding.code == NEVER_ENDS.code
 
-    def _doubts(self, promise: Promise) -> Iterator[str]:
+    def _doubts(self, promise: Promise, own: Sequence[Finding]) -> Iterator[str]:
         """Give what keeps a promise from being proven, what concerns all promises first."""
         yield from self._gaps()
         for finding in self.near:
             if _breaks(finding, promise):
                 yield f'{finding.code} at {_at(finding)}, which may concern it'
-        for finding in self.own:
+        for finding in own:
             if finding.code in _CODES[promise]:
                 yield f'{finding.code} at {_at(finding)}'
         yield from self._verdicts(promise)

@@ -10,6 +10,7 @@ import pytest
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.findings.base.model import Finding
+from ros2cc_extract.findings.collect import findings_of
 from ros2cc_extract.findings.promises import Judgement, Mark, Promise, about, judge
 from ros2cc_extract.generator.build import Family, Profile
 from ros2cc_extract.source_locations import Place, Unknown
@@ -198,3 +199,86 @@ def test_what_each_copy_has_for_itself_keeps_no_other_out(
     races = judged[Promise.RACES]
     told = 'Counter.on_text stands for several, each of which may have a group or lock of its own'
     assert (races.mark.name, races.reason) == (mark, told if mark == 'OPEN' else '')
+
+
+TIMED = """\
+import threading
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Empty
+
+
+class Waiter(Node):
+    def __init__(self):
+        super().__init__('waiter')
+        self.ready = threading.Event()
+        self.create_subscription(Empty, 'ready', self.on_ready, 10)
+        self.create_timer(1.0, self.work)
+
+    def on_ready(self, msg):
+        self.ready.set()
+
+    def work(self):
+        self.ready.wait({})
+
+
+rclpy.init()
+rclpy.spin(Waiter())
+"""
+
+
+@pytest.mark.parametrize(
+    ('seconds', 'marks_of_waits', 'reason'),
+    [
+        ('5.0', ['KEPT', 'KEPT'], 'one by its time-out alone (CC102 at waiter.py:18)'),
+        ('', ['BROKEN', 'BROKEN'], 'CC102'),
+    ],
+)
+def test_a_wait_that_always_times_out_ends_all_the_same(
+    seconds: str, marks_of_waits: list[str], reason: str
+) -> None:
+    [unit] = scan_text(TIMED.format(seconds), 'waiter.py').units
+    verification = verify_unit(close(unit), Options(profile=Profile.RCLPY))
+    own = findings_of([unit], [], [verification])
+    judged = {each.promise: each for each in judge(unit, verification, own)}
+    found = [judged[Promise.DEADLOCK], judged[Promise.WAITS]]
+    assert [each.mark.name for each in found] == marks_of_waits
+    assert judged[Promise.WAITS].reason == reason
+
+
+TRANSFORM = """\
+import rclpy
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_ros import Buffer, TransformListener
+
+
+class Looker(Node):
+    def __init__(self):
+        super().__init__('looker')
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
+        self.create_timer(0.5, self.work)
+
+    def work(self):
+        {}
+
+
+rclpy.init()
+rclpy.spin(Looker())
+"""
+ASKS = "self.buffer.can_transform('map', 'base', Time(), Duration(seconds=1.0))"
+
+
+@pytest.mark.parametrize(
+    ('does', 'codes'),
+    [(f"while not {ASKS}:\n            print('no')", ['CC109']), (f'print({ASKS})', ['CC205'])],
+)
+def test_what_an_attempt_costs_is_not_reported_beside_a_loop_that_never_ends(
+    does: str, codes: list[str]
+) -> None:
+    [unit] = scan_text(TRANSFORM.format(does)).units
+    verification = verify_unit(close(unit), Options(profile=Profile.RCLPY))
+    found = findings_of([unit], [], [verification])
+    assert [each.code for each in found if each.code[:3] in ('CC1', 'CC2')] == codes

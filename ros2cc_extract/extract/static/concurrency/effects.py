@@ -26,7 +26,7 @@ from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits
 from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes, unmangled
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
-from ros2cc_extract.extract.static.python.machine.recorded_effects import Looked
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, Looked
 from ros2cc_extract.extract.static.python.machine.world import RECENT, AccessKind, note_once
 from ros2cc_extract.extract.static.python.objects.element_keys import note_item
 from ros2cc_extract.extract.static.python.values.containers import (
@@ -162,7 +162,7 @@ class Effects(Waits):
         is_import = isinstance(reading.stored, (Library, Module))
         if kind is AccessKind.WRITE:
             flag_locks.put_up(self.world, name)
-        joins, is_akin = torn_state.written_with(self.world, name) if is_stored else (None, False)
+        joins, is_akin = torn_state.written_with(self.world, name, is_stored)
         access = Access(
             name=name,
             source=place,
@@ -199,10 +199,13 @@ class Effects(Waits):
             flag_locks.put_down(self.world, name)
             reading.forget(name, self.world.path)
         if not is_read:
-            is_open = self.world.path != self.world.callback_path
-            effects.written.setdefault((name, place), (effects.behind, is_open))
-            for hold in lost_notifications.holds_of(self.world):
-                effects.stored.setdefault(hold, set()).add(name)
+            self._note_written(effects, name, place)
+
+    def _note_written(self, effects: EffectLog, name: str, place: Place) -> None:
+        is_open = self.world.path != self.world.callback_path
+        effects.written.setdefault((name, place), (effects.behind, is_open))
+        for hold in lost_notifications.holds_of(self.world):
+            effects.stored.setdefault(hold, set()).add(name)
 
     def note_iteration(self, node: ast.expr, frame: Frame) -> None:
         """A loop goes over what ``node`` gives; over a copy of it nothing happens."""

@@ -67,23 +67,23 @@ _HARMLESS = (
 """Helpers of the ROS libraries that take a node and add nothing its executor would serve."""
 
 
-_DATA = (
-    'builtins.',
-    'collections.',
-    'copy.',
-    'datetime.',
-    'json.',
-    'math.',
-    'numpy.',
-    'pathlib.',
-    're.',
-    'rclpy.duration.',
-    'rclpy.qos.',
-    'rclpy.time.',
-    'types.',
-    'yaml.',
-)
-"""Libraries whose objects change only when the program changes them."""
+_DATA = {
+    'builtins.': 'numbers, texts and containers (Python, library reference, *Built-in Types*)',
+    'collections.': 'containers that only their own methods change (*collections*)',
+    'copy.': 'a copy is of the class of what it is taken of (*copy*)',
+    'datetime.': 'values, none of which ever changes (*datetime*, *Aware and Naive Objects*)',
+    'json.': 'what is decoded is made of built-in types (*json*, table of conversions)',
+    'math.': 'numbers (*math*)',
+    'numpy.': 'arrays, changed by assignments and methods (NumPy, reference, ``ndarray``)',
+    'pathlib.': 'a path is a value; what it asks the disk is noted where it is called (*pathlib*)',
+    're.': 'patterns and matches never change (*re*)',
+    'rclpy.duration.': 'a number of nanoseconds (rclpy 7.1.6, ``duration.py``)',
+    'rclpy.qos.': 'policies that code sets (``qos.py``)',
+    'rclpy.time.': 'a number of nanoseconds; only a clock gives a new one (``time.py``)',
+    'types.': 'name spaces that only assignments change (*types*, ``SimpleNamespace``)',
+    'yaml.': 'what is loaded is made of built-in types (PyYAML, documentation, *YAML tags*)',
+}
+"""Libraries whose objects change only when the program changes them, and why that is so."""
 
 _INTERFACES = frozenset({'msg', 'srv', 'action'})
 
@@ -144,5 +144,5 @@ def model() -> LibraryModel:
         making=MAKING,
         acting=MAKING_NAMES | _CALLS,
         waits=WAITS,
-        data=_DATA,
+        data=tuple(_DATA),
     )

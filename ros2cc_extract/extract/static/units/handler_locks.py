@@ -3,8 +3,11 @@ Locks that a handler of a signal takes, and that the main thread may hold when t
 
 The handler runs between two lines of the main thread, which goes on only behind it: a
 ``threading.Lock`` that the main thread holds is never given back. An ``RLock`` may be taken again,
-and what another thread holds is given back meanwhile.
-Sources: CPython 3.12, ``signal`` (handlers run in the main thread); rclpy 7.1.6, ``executors.py``
+and what another thread holds is given back meanwhile. A ``queue.Queue`` holds a lock of its own
+whenever something is put in or taken out; that of an event is held for a few instructions only,
+and is left out.
+Sources: CPython 3.12, ``signal`` (handlers run in the main thread), ``queue.py`` (``mutex``; only
+``SimpleQueue`` may be entered again); rclpy 7.1.6, ``executors.py``
 (a ``MultiThreadedExecutor`` runs callbacks in threads of a pool). Measured on 7.1.6.
 """
 
@@ -15,6 +18,7 @@ from collections.abc import Iterator
 from ros2cc_extract.diagnostics import Diagnostic, RelatedPlace, Severity
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    EntityState,
     ExecutorState,
     RosWorld,
     Spin,
@@ -25,12 +29,15 @@ from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Function,
     Instance,
+    Library,
     Value,
     options_of,
 )
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Act
+
+_WITH_MUTEX = frozenset({'queue.Queue', 'queue.LifoQueue', 'queue.PriorityQueue'})
 
 
 @dataclass(frozen=True)
@@ -52,6 +59,46 @@ def note_handler_locks(world: RosWorld) -> None:
                 held = next(_held_in_main(str(act.name), number, world), None)
                 if held is not None:
                     world.diagnostics.append(_told(handler, act, held))
+
+    for handler in (each for each in world.signal_handlers if each.interrupts):
+        world.diagnostics.extend(_of_queues(handler, world))
+
+
+def _of_queues(handler: ActivityState, world: RosWorld) -> Iterator[Diagnostic]:
+    """Queues that a handler uses, and callbacks in the main thread as well."""
+    served = [node for spin in world.spins.values() for node in _run_in_main(spin)]
+    for number, wakings in world.wakings.items():
+        own = next((each for each in wakings if each.by is handler), None)
+        queue = next((each for each in world.kept if id(each) == number), None)
+        if own is None or not isinstance(queue, Instance) or not _has_mutex(queue):
+            continue
+        for use in wakings:
+            by = use.by
+            if isinstance(by, EntityState) and any(by.node is each for each in served):
+                yield _told_of_queue(handler, own.place, queue, use.place, _called(by.callback))
+                break
+
+
+def _has_mutex(thing: Instance) -> bool:
+    return any(isinstance(cls, Library) and cls.name in _WITH_MUTEX for cls in thing.mro)
+
+
+def _told_of_queue(
+    handler: ActivityState, place: Place, queue: Instance, used: Place, user: str
+) -> Diagnostic:
+    name = queue.hint or 'a queue'
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='lock-order',
+        place=place,
+        message=f'{_called(handler.target)}, which handles a signal, uses {name}, whose lock '
+        f'{user} may hold in the same thread: then it waits for what it has interrupted, forever',
+        help='only store a flag in the handler, or use a queue.SimpleQueue',
+        related=(
+            RelatedPlace(used, f'{name} is used here, in the main thread'),
+            RelatedPlace(handler.place, 'the handler is set here'),
+        ),
+    )
 
 
 def _is_plain(name: str, world: RosWorld) -> bool:

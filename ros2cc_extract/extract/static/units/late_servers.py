@@ -22,6 +22,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 )
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import Const, Instance
+from ros2cc_extract.extract.static.units.wakers.late_offers import is_same_name
 from ros2cc_extract.extract.static.units.whole_program.start_up import client_of
 from ros2cc_extract.extract.static.units.whole_program.unanswered_waits import spun_beside
 from ros2cc_extract.light_dataclasses import dataclass
@@ -102,30 +103,10 @@ def _servers_of(client: EntityState, wait: SetUpWait, world: RosWorld) -> Iterat
     """Those of its name, if not made on other branches than the wait, or by what nobody calls."""
     kind = SERVER_KINDS[client.kind]
     for each in world.entities:
-        is_same = each.kind is kind and _is_same_name(client, each)
+        is_same = each.kind is kind and is_same_name(client, each)
         is_met = each.when is not When.LATER and not exclusive(each.path, wait.outside.path)
         if is_same and is_met:
             yield each
-
-
-def _is_same_name(client: EntityState, server: EntityState) -> bool:
-    one, other = client.key, server.key
-    if not isinstance(one, Const) or not isinstance(other, Const) or one.value != other.value:
-        return False
-    if client.node is server.node:
-        return True
-    name = str(one.value)
-    return name.startswith('/') or (
-        not name.startswith('~') and _namespace(client.node) == _namespace(server.node)
-    )
-
-
-def _namespace(node: Instance) -> object:
-    state = node.state
-    namespace = state.namespace if isinstance(state, NodeState) else None
-    if namespace is None:
-        return ''
-    return str(namespace.value).strip('/') if isinstance(namespace, Const) else namespace
 
 
 def _order(server: EntityState, wait: SetUpWait, world: RosWorld) -> _Order:

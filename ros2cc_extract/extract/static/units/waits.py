@@ -33,6 +33,7 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Effect
 from ros2cc_extract.extract.static.units.wakers import barriers, initial_permits
 from ros2cc_extract.extract.static.units.wakers.data_writers import DataWriters, Doer, Kept
 from ros2cc_extract.extract.static.units.wakers.endless_threads import never_comes, why_no_end
+from ros2cc_extract.extract.static.units.wakers.late_offers import offered_late
 from ros2cc_extract.extract.static.units.wakers.lost_events import (
     answer_from_outside,
     why_wiped_out,
@@ -207,9 +208,10 @@ class UnitWaits(DataWriters):
         return any(map(is_activity, by))
 
     def _with_wakers(self, raw: Blocking, named: Blocking, doer: Doer) -> Blocking:
-        spin = of_spin_aside(self._world, raw, named, doer)
-        if spin is not None:
-            return spin
+        known = of_spin_aside(self._world, raw, named, doer)
+        known = known or offered_late(self._world, raw, named, self._names)
+        if known is not None:
+            return known
         if isinstance(raw.on, MessageRef):
             return self._of_messages(raw.on, named)
         if isinstance(raw.on, TopicRef):
@@ -402,11 +404,9 @@ class UnitWaits(DataWriters):
         known = self._world.given.get(reference.number) or why_open(mine, reference, self._world)
         if known is not None:
             return known
-        uncalled = next((w for w in mine if w.uncalled is not None), None)
-        if uncalled is not None:
-            return Unknown(
-                f'no known code calls {uncalled.uncalled}, which ends it', uncalled.place
-            )
+        lost = next((w for w in mine if w.uncalled is not None), None)
+        if lost is not None:
+            return Unknown(f'no known code calls {lost.uncalled}, which ends it', lost.place)
         return uncalled_wakers(self._world, str(reference), reference.ended_by, reference.made)
 
     def _wakers(

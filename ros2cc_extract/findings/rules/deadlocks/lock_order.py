@@ -156,7 +156,8 @@ RULE = Rule(
     'locks in opposite order; or one takes a `threading.Lock` that it already holds. Each waits '
     'for the other forever and keeps its thread and group. Or a handler of a signal takes a '
     '`threading.Lock` that the main thread, which it interrupts, may hold: in `main`, or in a '
-    'callback that the main thread runs itself.',
+    'callback that the main thread runs itself. Or it uses a `queue.Queue`, which has such a '
+    'lock inside, that a callback in the main thread uses too (a warning: it is held shortly).',
     why='A `threading.Lock` has no owner: its holder waits for it like everybody else. The model '
     'decides whether two callbacks may overlap; if the unit was not verified, their groups and '
     'the number of threads do. Locks taken with a time-out, read locks, and cycles of three '

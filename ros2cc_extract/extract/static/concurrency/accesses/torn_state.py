@@ -57,10 +57,10 @@ def _taken_from(value: ast.expr, frame: Frame) -> frozenset[str]:
     )
 
 
-def written_with(world: ConcurrentWorld, name: str) -> tuple[str | None, bool]:
+def written_with(world: ConcurrentWorld, name: str, is_stored: bool) -> tuple[str | None, bool]:
     """The attribute that was written before ``name``, and whether both are of one thing."""
     effects, reading = world.effects, world.reading
-    if effects is None or isinstance(reading.stored, Const):
+    if effects is None or not is_stored or isinstance(reading.stored, Const):
         return None, False  # as a flag: who finds it up finds what was stored before
     whose = name.rpartition('.')[0], world.chain
     before = effects.stored_last.get(whose)

@@ -215,6 +215,7 @@ class ConcurrentWorld(World):
         after the spin has ended, with ``None``.
     :param writes_beside: data that the set-up writes when it has started a thread, or has spun.
     :param cleared: events that code clears: which and where, and how many entities there were.
+    :param surely_cleared: the same of those that clear them on all their branches.
     :param by_loop: a loop of asyncio does what is followed, in its own thread.
     :param cancelled: where futures are cancelled, by where they are made.
     :param loop_runs: what runs one; ``loop_touches`` what is done to what belongs to one, and
@@ -280,6 +281,7 @@ class ConcurrentWorld(World):
     other_writes: dict[str, tuple[str | None, Place]] = field(default_factory=dict)
     writes_beside: dict[str, Place] = field(default_factory=dict)
     cleared: dict[int, dict[tuple[object, Place], int]] = field(default_factory=dict)
+    surely_cleared: dict[int, set[tuple[object, Place]]] = field(default_factory=dict)
     by_loop: bool = False
     loop_runs: list[LoopRun] = field(default_factory=list)
     loop_touches: list[LoopTouch] = field(default_factory=list)

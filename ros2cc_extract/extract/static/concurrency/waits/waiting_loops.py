@@ -9,11 +9,20 @@ from ros2cc_extract.extract.static.concurrency.machine.state import ActivityStat
 from ros2cc_extract.spec.effects import WORKING_LOOP
 from ros2cc_extract.spec.model import ActivityKind
 
-_PASTIMES = frozenset(['sleep', 'print', 'info', 'debug', 'warn', 'warning', 'get_logger', 'ok'])
+_LOGGING = frozenset(
+    ['print', 'get_logger', 'debug', 'info', 'warn', 'warning', 'warning_once', 'error']
+)
+PASTIMES = _LOGGING | {'sleep'}
+"""Calls that only let time pass, or log."""
+ROS_CLOCKS = frozenset(['now', 'get_clock'])
+CLOCKS = ROS_CLOCKS | {'time', 'time_ns', 'monotonic', 'perf_counter'}
+"""Calls that ask a clock: of rclpy, and of ``time``."""
 
-_WAITING = _PASTIMES | {'spin_once', 'time', 'monotonic', 'now', 'get_clock', 'warning_once'}
+_IDLE = PASTIMES | {'ok'}
 
-_HARMLESS = _PASTIMES | {'error', 'append', 'len', 'str', 'time', 'monotonic', 'put', 'set'}
+_WAITING = _IDLE | CLOCKS | {'spin_once'}
+
+_HARMLESS = _IDLE | (CLOCKS - ROS_CLOCKS) | {'append', 'len', 'str', 'put', 'set'}
 
 
 def goes_round(loop: ast.While) -> bool:
@@ -99,7 +108,7 @@ def passes_time(body: Sequence[ast.stmt]) -> bool:
 
 def is_pastime(part: ast.expr) -> bool:
     """True for a call that only sleeps or logs."""
-    return _called_name(part) in _PASTIMES
+    return _called_name(part) in _IDLE
 
 
 def only_waits(loop: ast.While) -> bool:

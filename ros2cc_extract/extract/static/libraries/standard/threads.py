@@ -290,6 +290,8 @@ def _clear(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     doer = world.activity or world.current
     before = world.things_made
     world.cleared.setdefault(id(receiver), {}).setdefault((doer, call.place), before)
+    if world.path == world.callback_path and world.effects is not None:
+        world.surely_cleared.setdefault(id(receiver), set()).add((doer, call.place))
     _keep_flag(machine, receiver, Const(False))
     note_cleared(world.effects, receiver)
     return NONE

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
+    CLOCKS,
     is_endless,
     is_idle,
 )
@@ -53,8 +54,6 @@ _NEUTRAL = frozenset(
     ]
 )
 """What says no more than its arguments: of Python, ``math`` and ``numpy``."""
-
-_CLOCKS = frozenset(['time', 'monotonic', 'perf_counter', 'now', 'get_clock', 'time_ns'])
 
 _CHANGED_BY_CLIENTS = frozenset(['is_cancel_requested', 'is_active'])
 
@@ -172,12 +171,12 @@ def _counts(loop: ast.While) -> bool:
 def only_sleeps(loop: ast.While, tests: list[ast.expr]) -> bool:
     """Whether it only sleeps until the answer to something that no clock changes is different."""
     called = {name_of(part) for test in tests for part in walk(test) if isinstance(part, ast.Call)}
-    return is_idle(loop) and called.isdisjoint(_CLOCKS) and not _counts(loop)
+    return is_idle(loop) and called.isdisjoint(CLOCKS) and not _counts(loop)
 
 
 def tells_time(node: ast.AST) -> bool:
     """Whether a clock is asked."""
-    return any(isinstance(part, ast.Call) and name_of(part) in _CLOCKS for part in walk(node))
+    return any(isinstance(part, ast.Call) and name_of(part) in CLOCKS for part in walk(node))
 
 
 def runs_out(test: ast.expr, loop: ast.While) -> bool:

@@ -24,6 +24,8 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     own_parts,
 )
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
+    PASTIMES,
+    ROS_CLOCKS,
     awaits_each_round,
     call_of_loop,
     spins,
@@ -35,18 +37,14 @@ from ros2cc_extract.extract.static.python.values.values import Bound, Function, 
 from ros2cc_extract.spec.effects import POLLING_LOOP
 
 _TIME = '/clock'
-_CLOCKS = frozenset(['now', 'get_clock'])
 _TRANSFORMS = frozenset(
     ['can_transform', 'can_transform_full', 'lookup_transform', 'lookup_transform_full']
 )
-_BRINGING = _CLOCKS | _TRANSFORMS
+_BRINGING = ROS_CLOCKS | _TRANSFORMS
 _OF_VALUES = frozenset(
     ['Duration', 'Time', 'to_msg', 'from_msg', 'seconds_nanoseconds', 'float', 'int', 'str', 'abs']
 )
-_PASTIMES = frozenset(
-    ['sleep', 'get_logger', 'info', 'debug', 'warn', 'warning', 'error', 'print']
-)
-_PLAIN = _OF_VALUES | _PASTIMES
+_PLAIN = _OF_VALUES | PASTIMES
 """Calls that say no more than their arguments."""
 _DEEPEST = 3
 
@@ -82,7 +80,7 @@ def _note(
         return False
     found, data = _read(machine, asked, frame)
     # A clock that goes on by itself ends a loop that asks for a transform as well.
-    is_time = bool(names & _CLOCKS)
+    is_time = bool(names & ROS_CLOCKS)
     brings = [each for each in found if (each.topic == _TIME) == is_time]
     if len(brings) != 1 or _stores(loop, data) or (is_time and names & _TRANSFORMS):
         return False
