@@ -47,16 +47,19 @@ def note_test(
     repeats: bool = False,
 ) -> Asked:
     """A branch, or a loop that ``repeats``, rests on what was ``found`` to be read for it."""
-    is_open = (repeats and bool(found)) or _may_rest_on_more(test)
+    rests_on_more = may_rest_on_more(test)
+    is_open = (repeats and bool(found)) or rests_on_more
+    until = found if repeats and not rests_on_more else frozenset[str]()
     before = world.reading.asked.get(place)
-    asked = Asked(found, holds_of(world), is_open)
+    asked = Asked(found, holds_of(world), is_open, until)
     if before is not None and before.holds == asked.holds:
-        asked = Asked(before.names | found, before.holds, before.is_open or is_open)
+        is_open, until = before.is_open or is_open, (before.until | until if until else until)
+        asked = Asked(before.names | found, before.holds, is_open, until)
     world.reading.asked[place] = asked
     return asked
 
 
-def _may_rest_on_more(test: ast.expr) -> bool:
+def may_rest_on_more(test: ast.expr) -> bool:
     """Whether an answer may rest on more than attributes of known objects: calls, own names."""
     owners = {id(part.value) for part in ast.walk(test) if isinstance(part, ast.Attribute)}
     asked = {id(part.func) for part in ast.walk(test) if isinstance(part, ast.Call)}
@@ -112,7 +115,9 @@ def guard_of(world: ConcurrentWorld, condition: Instance) -> Guard:
     begun = frozenset(world.begun.get(hold, ()))
     begin_hold(world, name)
     names = frozenset[str]().union(*(each.names for each in asked))
-    return Guard(hold, names, any(each.is_open for each in asked), begun)
+    loops = [each.until for each in reading.loops if hold in each.holds]
+    until = frozenset[str]().union(*loops) if all(loops) else frozenset[str]()
+    return Guard(hold, names, any(each.is_open for each in asked), begun, until)
 
 
 @dataclass(frozen=True)

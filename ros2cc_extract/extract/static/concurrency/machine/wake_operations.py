@@ -51,12 +51,14 @@ class Guard:
     :param names: of the data that was asked for in that hold.
     :param is_open: something else was asked for too.
     :param begun: where something is made or started in that hold.
+    :param until: data that it asks for again when it is notified, where it rests on nothing else.
     """
 
     hold: Hold | None
     names: frozenset[str]
     is_open: bool = False
     begun: frozenset[Place] = frozenset()
+    until: frozenset[str] = frozenset()
 
 
 class ResourceRef(SettableRef):

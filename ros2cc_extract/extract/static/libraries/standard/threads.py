@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifications, signal_locks
@@ -31,6 +32,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Call,
     Const,
+    Function,
     Handler,
     Instance,
     Value,
@@ -166,12 +168,20 @@ def _wait_for(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     if world.effects is not None and predicate is not None:
         with world.reading.of(found):
             machine.call(predicate, Call(call.place))
-    asked = Asked(frozenset(found), lost_notifications.holds_of(world), is_open=True)
+    holds, until = lost_notifications.holds_of(world), frozenset(found)
+    until = until if _asks_for_data_alone(predicate) else frozenset()
+    asked = Asked(frozenset(found), holds, is_open=True, until=until)
     with world.reading.in_loop(asked):
         machine.note_blocking(
             'Condition.wait_for', receiver, call.argument(1, 'timeout'), call.place
         )
     return machine.mystery('result of Condition.wait_for', call.place)
+
+
+def _asks_for_data_alone(predicate: Value | None) -> bool:
+    """Whether it is a lambda that rests on nothing but attributes of the object."""
+    node = predicate.node if isinstance(predicate, Function) else None
+    return isinstance(node, ast.Lambda) and not lost_notifications.may_rest_on_more(node.body)
 
 
 def _wakes(word: Word) -> Handler:

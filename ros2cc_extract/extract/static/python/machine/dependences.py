@@ -28,11 +28,13 @@ class Asked:
     :param names: of the data that it reads.
     :param holds: the locks that were held then, see ``lost_notifications.py``.
     :param is_open: its answer may rest on more.
+    :param until: of a loop, the data until whose change it waits, where it rests on nothing else.
     """
 
     names: frozenset[str]
     holds: frozenset[tuple[str, int]]
     is_open: bool
+    until: frozenset[str] = frozenset()
 
 
 NOTHING_ASKED = Asked(frozenset(), frozenset(), is_open=False)

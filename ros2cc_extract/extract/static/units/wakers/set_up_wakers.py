@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.units.wakers.operations import comes_last
+from ros2cc_extract.extract.static.units.wakers.operations import comes_last, is_of_other_data
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
 from ros2cc_extract.source_locations import Unknown
 
@@ -31,7 +31,9 @@ def ends_for_good(waking: Waking, reference: ResourceRef, world: RosWorld) -> bo
 
 
 def why_open(mine: Sequence[Waking], reference: ResourceRef, world: RosWorld) -> Unknown | None:
-    """Why the set-up may end one wait and not the next one."""
+    """Why the set-up may end one wait and not the next one, or what notifies speaks of others."""
+    if not mine and is_of_other_data(world, reference):
+        return Unknown('no code that notifies it changes what the wait asks for', reference.made)
     early = [waking for waking in mine if is_of_set_up(waking, world)]
     if any(ends_for_good(waking, reference, world) for waking in early):
         return None
