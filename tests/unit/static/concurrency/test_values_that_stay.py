@@ -136,6 +136,24 @@ def test_all_that_a_loop_asks_for_must_come(test: str, group: str, verdict: str)
     assert judge(BOTH.format(test=test, group=group))['work'] == verdict
 
 
+@pytest.mark.parametrize(('group', 'verdict'), [('other', ENDS), ('None', FOUND)])
+@pytest.mark.parametrize(
+    'test',
+    [
+        'not all(self.came.values())',
+        'not all(each for each in self.came.values())',
+        "not (self.came['left'] and self.came['right'])",
+    ],
+)
+def test_all_items_of_a_dictionary_must_come(test: str, group: str, verdict: str) -> None:
+    text = BOTH.format(test=test, group=group).replace('self.left', "self.came['left']")
+    text = text.replace('self.right =', "self.came['right'] =")
+    made = "super().__init__('waiter')"
+    kept = f"{made}\n        self.came = {{'left': False, 'right': False}}"
+    assert made in text
+    assert judge(text.replace(made, kept))['work'] == verdict
+
+
 def test_one_of_several_is_enough_where_the_loop_asks_for_any() -> None:
     assert judge(BOTH.format(test='not (self.left or self.right)', group='None'))['work'] == ENDS
 

@@ -431,7 +431,7 @@ def _references(
     for test, is_sure in needed_of(machine, tests, frame):
         names = test.formula.all_names & seen.names
         if names:
-            part = reference_to(Seen(names, seen.holders, seen.outside))
+            part = reference_to(Seen(names, seen.holders, seen.outside), test.formula.item)
             part.tests, part.is_open_at_first = (test,), not is_sure
             found.append(part)
     whole = reference_to(seen)
@@ -439,9 +439,10 @@ def _references(
     return found or [whole]
 
 
-def reference_to(seen: Seen) -> DataRef:
-    """What stands for the data until a unit has given it a name."""
-    reference = DataRef(min(seen.names))
+def reference_to(seen: Seen, item: str | None = None) -> DataRef:
+    """What stands for the data, or an item of it, until a unit has given it a name."""
+    name = min(seen.names)
+    reference = DataRef(name if item is None else f'{name}[{item}]')
     reference.names, reference.holders = seen.names, seen.holders
     return reference
 

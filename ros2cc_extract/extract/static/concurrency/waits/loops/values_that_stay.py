@@ -19,6 +19,8 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import eval
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import LEAVES, own_parts
 from ros2cc_extract.extract.static.python.machine.dependences import constant_key
 from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.values.containers import Mapping
+from ros2cc_extract.extract.static.python.values.values import Const
 
 _NAMED = (ast.Attribute, ast.Name, ast.Subscript)
 _COMPARED: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
@@ -79,7 +81,8 @@ def _formula(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> Formul
     arguments = node.args if isinstance(node, ast.Call) else []
     if called == 'bool' and len(arguments) == 1:
         return _formula(machine, arguments[0], frame)
-    items = _items(arguments[0]) if called in _OF_ALL and len(arguments) == 1 else []
+    of_all = arguments[0] if called in _OF_ALL and len(arguments) == 1 else None
+    items = [] if of_all is None else _items(of_all) or _values_of(machine, of_all, frame)
     if items:
         return Formula(_OF_ALL[called], tuple(_formula(machine, e, frame) for e in items))
     names = seen_by(machine, [node], frame).names
@@ -112,6 +115,28 @@ def _items(node: ast.expr) -> list[ast.expr]:
         without_copies(node.elt, {target.id: each}, lambda value: True)  # type: ignore[attr-defined]
         for each in constants
     ]
+
+
+def _values_of(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> list[ast.expr]:
+    """``self.ready.values()``: an item for each key that the dictionary is known to have."""
+    if isinstance(node, (ast.GeneratorExp, ast.ListComp)) and len(node.generators) == 1:
+        (each,) = node.generators
+        is_plain = not each.ifs and ast.dump(node.elt) == ast.dump(_as_read(each.target))
+        return _values_of(machine, each.iter, frame) if is_plain else []
+    asked = node.func if isinstance(node, ast.Call) else None
+    if not isinstance(asked, ast.Attribute) or asked.attr != 'values':
+        return []
+    held = evaluated(machine, asked.value, frame)
+    keys = list(held[0].entries) if len(held) == 1 and isinstance(held[0], Mapping) else []
+    if not all(isinstance(key, Const) and isinstance(key.value, (str, int)) for key in keys):
+        return []
+    constants = [ast.Constant(key.value) for key in keys if isinstance(key, Const)]
+    items = [ast.Subscript(asked.value, key, ast.Load()) for key in constants]
+    return [ast.fix_missing_locations(ast.copy_location(item, node)) for item in items]
+
+
+def _as_read(target: ast.expr) -> ast.expr:
+    return ast.Name(target.id, ast.Load()) if isinstance(target, ast.Name) else target
 
 
 def needed_of(
