@@ -42,7 +42,7 @@ _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.BitXor: operator.xor,
 }
 
-_COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
+COMPARISONS: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
     ast.Lt: operator.lt,
@@ -171,12 +171,12 @@ def compare(op: ast.cmpop, left: Value, right: Value) -> bool | None:
         return inside if inside is None or isinstance(op, ast.In) else not inside
     if isinstance(left, Const) and isinstance(right, Const):
         try:
-            return bool(_COMPARE[type(op)](left.value, right.value))
+            return bool(COMPARISONS[type(op)](left.value, right.value))
         except _TROUBLE:
             return None
     if isinstance(left, Identity) and isinstance(right, Identity):
         one, other = left.thing.serial, right.thing.serial
-        return bool(_COMPARE[type(op)](one, other)) if one != other else None
+        return bool(COMPARISONS[type(op)](one, other)) if one != other else None
     if isinstance(op, (ast.Eq, ast.NotEq)) and _are_constant_and_callable(left, right):
         return isinstance(op, ast.NotEq)
     if isinstance(op, (ast.Eq, ast.NotEq)) and _is_sure(left) and _is_sure(right):

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import ast
 import operator
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from ros2cc_extract.extract.static.concurrency.machine.loop_formulas import Formula, LoopTest
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
@@ -19,20 +18,12 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import eval
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import LEAVES, own_parts
 from ros2cc_extract.extract.static.python.machine.dependences import constant_key
 from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.values.constant_folding import COMPARISONS
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import Const
 
 _NAMED = (ast.Attribute, ast.Name, ast.Subscript)
-_COMPARED: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
-    ast.Is: operator.is_,
-    ast.IsNot: operator.is_not,
-    ast.Eq: operator.eq,
-    ast.NotEq: operator.ne,
-    ast.Lt: operator.lt,
-    ast.LtE: operator.le,
-    ast.Gt: operator.gt,
-    ast.GtE: operator.ge,
-}
+_COMPARED = {**COMPARISONS, ast.Is: operator.is_, ast.IsNot: operator.is_not}
 
 
 def tests_of(
