@@ -20,7 +20,7 @@ from ros2cc_extract.spec.program_order import steps
 
 
 def torn_messages(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
-    """Objects that one publishes and the other changes piece by piece, without a common lock."""
+    """Objects that one takes as a whole while the other changes them piece by piece."""
     for sender, changer in ((one, other), (other, one)):
         yield from (
             (Use(sender, sent), Use(changer, change))
