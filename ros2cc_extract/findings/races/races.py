@@ -133,9 +133,13 @@ class Race:
 
     def related(self) -> tuple[Remark, ...]:
         """The other writes; one function of several entities is listed once."""
+        writes = self.others
+        if self.kind is RaceKind.TORN_STATE:
+            pairs = [(use.doer, name) for use in self.others for name in self.names]
+            writes = tuple(Use(d, w) for d, name in pairs for w in writes_of(d).get(name, ())[:1])
         remarks = (
             Remark(use.place, f'{called(use.doer)} writes {use.access.name} here')
-            for use in self.others
+            for use in writes
         )
         return tuple(dict.fromkeys(remarks))
 

@@ -53,7 +53,7 @@ def test_the_finding_names_both_attributes_and_places() -> None:
         'new values stand beside old ones'
     )
     assert (finding.severity, finding.place.line) == (Severity.NOTE, 30)
-    assert [remark.place.line for remark in finding.related] == [20]
+    assert [remark.place.line for remark in finding.related] == [20, 22]
 
 
 @pytest.mark.parametrize('akin', [True, False])
