@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ros2cc_extract.extract.static.concurrency.machine.loop_formulas import Formula, LoopTest
-from tests.random_waits.suite import ENDS, FOUND, judge
+from tests.random_waits.suite import ENDS, FOUND, UNDECIDED, judge
 
 PROGRAM = """\
 import time
@@ -166,3 +166,21 @@ def test_open_parts_may_have_any_result_by_which_the_loop_went_on() -> None:
     assert not both.stays('a', None, True)
     assert not either.stays('a', None, True)
     assert not LoopTest(asked, stays_if=None).stays('a', None, False)
+
+
+@pytest.mark.parametrize(
+    ('test', 'verdict'),
+    [
+        ('len(self.came) < 2', UNDECIDED),
+        ('None in self.came.values()', UNDECIDED),
+        ('len(self.came) == 0', ENDS),
+        ('not self.came', ENDS),
+    ],
+)
+def test_where_each_brings_its_part_one_may_not_be_enough(test: str, verdict: str) -> None:
+    text = BOTH.format(test=test, group='other').replace('self.left', "self.came['left']")
+    text = text.replace('self.right =', "self.came['right'] =")
+    made = "super().__init__('waiter')"
+    text = text.replace(made, f'{made}\n        self.came = {{}}')
+    text = text.replace("self.came['left'], self.right, self.enabled = False, False, True", 'pass')
+    assert judge(text)['work'] == verdict

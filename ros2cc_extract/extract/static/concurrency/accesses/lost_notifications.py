@@ -51,10 +51,11 @@ def note_test(
     is_open = (repeats and bool(found)) or rests_on_more
     until = found if repeats and not rests_on_more else frozenset[str]()
     before = world.reading.asked.get(place)
-    asked = Asked(found, holds_of(world), is_open, until)
+    several = asks_for_several(test, wanted=False)
+    asked = Asked(found, holds_of(world), is_open, until, several)
     if before is not None and before.holds == asked.holds:
         is_open, until = before.is_open or is_open, (before.until | until if until else until)
-        asked = Asked(before.names | found, before.holds, is_open, until)
+        asked = Asked(before.names | found, before.holds, is_open, until, several)
     world.reading.asked[place] = asked
     return asked
 
@@ -70,6 +71,17 @@ def may_rest_on_more(test: ast.expr) -> bool:
         or (isinstance(part, ast.Name) and id(part) not in owners | asked)
         for part in ast.walk(test)
     )
+
+
+def asks_for_several(test: ast.expr, *, wanted: bool) -> bool:
+    """Whether several things must come before a test has the result that is wanted."""
+    if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
+        return asks_for_several(test.operand, wanted=not wanted)
+    if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And) is wanted:
+        return True
+    if isinstance(test, ast.BoolOp):
+        return any(asks_for_several(each, wanted=wanted) for each in test.values)
+    return isinstance(test, ast.Call) and _name_of(test.func) == ('all' if wanted else 'any')
 
 
 def _name_of(function: ast.expr) -> str:
@@ -117,7 +129,8 @@ def guard_of(world: ConcurrentWorld, condition: Instance) -> Guard:
     names = frozenset[str]().union(*(each.names for each in asked))
     loops = [each.until for each in reading.loops if hold in each.holds]
     until = frozenset[str]().union(*loops) if all(loops) else frozenset[str]()
-    return Guard(hold, names, any(each.is_open for each in asked), begun, until)
+    several = any(each.is_of_several for each in reading.loops if hold in each.holds)
+    return Guard(hold, names, any(each.is_open for each in asked), begun, until, several)
 
 
 @dataclass(frozen=True)

@@ -54,6 +54,13 @@ class Formula:
         for part in self.parts:
             yield from part.opens()
 
+    def nodes(self) -> Iterator[ast.expr]:
+        """The expressions of its parts, where they were kept."""
+        if self.node is not None:
+            yield self.node
+        for part in self.parts:
+            yield from part.nodes()
+
     def result(self, known: Mapping[tuple[str, str | None], object], opens: Opens) -> object:
         """What it gives with that data, and with such results of its open parts."""
         if self.kind == 'constant':

@@ -51,7 +51,8 @@ class Guard:
     :param names: of the data that was asked for in that hold.
     :param is_open: something else was asked for too.
     :param begun: where something is made or started in that hold.
-    :param until: data that it asks for again when it is notified, where it rests on nothing else.
+    :param until: data that it asks for again when it is notified, where it rests on nothing else;
+        ``is_of_several`` where one change of it may not be enough.
     """
 
     hold: Hold | None
@@ -59,6 +60,7 @@ class Guard:
     is_open: bool = False
     begun: frozenset[Place] = frozenset()
     until: frozenset[str] = frozenset()
+    is_of_several: bool = False
 
 
 class ResourceRef(SettableRef):

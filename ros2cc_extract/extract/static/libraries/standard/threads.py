@@ -169,8 +169,11 @@ def _wait_for(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         with world.reading.of(found):
             machine.call(predicate, Call(call.place))
     holds, until = lost_notifications.holds_of(world), frozenset(found)
-    until = until if _asks_for_data_alone(predicate) else frozenset()
-    asked = Asked(frozenset(found), holds, is_open=True, until=until)
+    body = _body_of(predicate)
+    is_alone = body is not None and not lost_notifications.may_rest_on_more(body)
+    several = body is not None and lost_notifications.asks_for_several(body, wanted=True)
+    until = until if is_alone else frozenset()
+    asked = Asked(frozenset(found), holds, is_open=True, until=until, is_of_several=several)
     with world.reading.in_loop(asked):
         machine.note_blocking(
             'Condition.wait_for', receiver, call.argument(1, 'timeout'), call.place
@@ -178,10 +181,10 @@ def _wait_for(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return machine.mystery('result of Condition.wait_for', call.place)
 
 
-def _asks_for_data_alone(predicate: Value | None) -> bool:
-    """Whether it is a lambda that rests on nothing but attributes of the object."""
+def _body_of(predicate: Value | None) -> ast.expr | None:
+    """What a lambda gives."""
     node = predicate.node if isinstance(predicate, Function) else None
-    return isinstance(node, ast.Lambda) and not lost_notifications.may_rest_on_more(node.body)
+    return node.body if isinstance(node, ast.Lambda) else None
 
 
 def _wakes(word: Word) -> Handler:

@@ -28,13 +28,15 @@ class Asked:
     :param names: of the data that it reads.
     :param holds: the locks that were held then, see ``lost_notifications.py``.
     :param is_open: its answer may rest on more.
-    :param until: of a loop, the data until whose change it waits, where it rests on nothing else.
+    :param until: of a loop, the data until whose change it waits, where it rests on nothing else;
+        ``is_of_several`` where one change may not be enough.
     """
 
     names: frozenset[str]
     holds: frozenset[tuple[str, int]]
     is_open: bool
     until: frozenset[str] = frozenset()
+    is_of_several: bool = False
 
 
 NOTHING_ASKED = Asked(frozenset(), frozenset(), is_open=False)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import ast
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field, replace
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
@@ -113,6 +114,8 @@ class DataWriters:
     def _signals(self, on: DataRef, doer: Doer) -> int | None:
         """How many writes end the wait; ``None`` where one may not be enough."""
         writes = tuple(self._writes(on))
+        if _is_of_whole(on) and _bring_parts(writes):
+            return None
         if on.rise is None or len(on.names) != 1 or not writes:
             return 1
         steps = [(each.effects or EffectLog()).steps.get(access.source) for each, access in writes]
@@ -192,3 +195,27 @@ def _is_of_other_item(access: Access, on: DataRef) -> bool:
 def _all_recur(writes: Iterable[tuple[Doer, Access]]) -> bool:
     """Whether all the writers run again and again."""
     return all(isinstance(by, EntityState) and by.kind in RECURRING for by, _ in writes)
+
+
+def _is_of_whole(on: DataRef) -> bool:
+    """Whether a loop asks for all of a collection: ``len(self.d) < 2``, ``x in d.values()``."""
+    nodes = [node for test in on.tests for node in test.formula.nodes()]
+    compared = [part for node in nodes for part in ast.walk(node) if isinstance(part, ast.Compare)]
+    return any(map(_asks_for_more, compared))
+
+
+def _asks_for_more(node: ast.Compare) -> bool:
+    """Whether one item may not be enough."""
+    (operator, *_), (other, *_) = node.ops, node.comparators
+    if isinstance(operator, (ast.In, ast.NotIn)):
+        return True
+    is_length = isinstance(node.left, ast.Call) and getattr(node.left.func, 'id', '') == 'len'
+    least = other.value if isinstance(other, ast.Constant) else None
+    is_first = isinstance(operator, (ast.Eq, ast.LtE, ast.Gt)) and least == 0
+    return is_length and not is_first and not (isinstance(operator, ast.Lt) and least == 1)
+
+
+def _bring_parts(writes: Sequence[tuple[Doer, Access]]) -> bool:
+    """Whether several doers each put in what is theirs."""
+    by = {id(doer) for doer, access in writes if access.in_place}
+    return len(by) > 1 and all(access.in_place for _, access in writes)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
@@ -30,6 +32,19 @@ def is_of_other_data(world: RosWorld, reference: ResourceRef) -> bool:
     """Whether a condition is notified, but of nothing that the wait asks for."""
     found = (w for w in _all_of(world, reference) if w.word in reference.ended_by)
     return reference.guard is not None and bool(reference.guard.until) and any(found)
+
+
+def gives_one_of_several(reference: ResourceRef, mine: Sequence[Waking]) -> bool:
+    """Whether a wait for a condition asks for several things, which different code brings."""
+    guard = reference.guard
+    if guard is None or not guard.is_of_several:
+        return False
+    brought = {
+        frozenset((w.name, w.item) for w in waking.by.effects.writes if w.name in guard.names)
+        for waking in mine
+        if isinstance(waking.by, Doer) and waking.by.effects is not None
+    }
+    return len(brought) > 1
 
 
 def _all_of(world: RosWorld, reference: ResourceRef) -> list[Waking]:

@@ -12,7 +12,10 @@ from collections.abc import Sequence
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.units.wakers.operations import comes_last, is_of_other_data
+from ros2cc_extract.extract.static.units.wakers.operations import (
+    comes_last,
+    is_of_other_data,
+)
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
 from ros2cc_extract.source_locations import Unknown
 

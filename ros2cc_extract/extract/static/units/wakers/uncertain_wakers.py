@@ -34,6 +34,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     RosWorld,
 )
 from ros2cc_extract.extract.static.python.values.values import Instance
+from ros2cc_extract.extract.static.units.wakers.operations import gives_one_of_several
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import POLLING_LOOP, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import EntityKind, GroupType, When
@@ -63,6 +64,9 @@ def why_in_another_run(wait: Blocking, wakings: Sequence[Waking], doer: Doer) ->
 
     It waits in one branch and ends waits in another one, and several of its runs go on at a time.
     """
+    if isinstance(wait.resource, ResourceRef) and gives_one_of_several(wait.resource, wakings):
+        reason = 'it asks for several things, which different code brings'
+        return Unknown(reason, wait.source)
     if not isinstance(doer, EntityState) or not wait.conditional:
         return None
     group = doer.group.state

@@ -83,3 +83,24 @@ def test_data_that_is_changed_without_a_word_may_be_told_of_by_another() -> None
 def test_where_nobody_speaks_of_the_data_it_is_undecided() -> None:
     reason = 'no code that notifies it changes what the wait asks for'
     assert wakers('self.changed.wait_for(lambda: self.items)') == ([], reason)
+
+
+@pytest.mark.parametrize(
+    'waits',
+    [
+        'self.changed.wait_for(lambda: self.left and self.right)',
+        'while not self.left or not self.right:\n                self.changed.wait()',
+        'self.changed.wait_for(lambda: all((self.left, self.right)))',
+    ],
+)
+def test_of_several_things_that_different_code_brings_one_is_not_enough(waits: str) -> None:
+    found, reason = wakers(waits)
+    assert set(found) <= {'tell_left', 'tell_right', 'outside'}
+    assert reason == 'it asks for several things, which different code brings'
+
+
+def test_one_of_several_things_may_be_enough() -> None:
+    assert wakers('self.changed.wait_for(lambda: self.left or self.right)') == (
+        ['tell_left', 'tell_right'],
+        None,
+    )
