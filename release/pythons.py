@@ -184,6 +184,9 @@ def suite(place: Place, more: Sequence[str]) -> tuple[bool, str]:
     built = subprocess.run(command, env=environment, capture_output=True, text=True)
     if built.returncode:
         return False, built.stderr
+    # pip leaves what the wheel has cached beside itself, which would hide the sources.
+    for left in place.python.parent.parent.glob('lib/python*/site-packages/ros2cc_extract'):
+        shutil.rmtree(left)
     tests = place.as_other(place.python, '-u', '-m', 'pytest', *SUITE, *more, offline=False)
     return watched(tests, place.folder / 'output', place.tree, place.environment)
 
