@@ -99,8 +99,8 @@ def begin(
         for option in options_of(target) if target is not None else ():
             run_in_thread(machine, option, call)
         if state.is_executor:  # it is not followed once more
-            for thing, word, place in state.wakes:
-                machine.note_wake(thing, word, place)
+            for thing, word, place, item in state.wakes:
+                machine.note_wake(thing, word, place, item)
     finally:
         world.activity = outer
     if state.serves:

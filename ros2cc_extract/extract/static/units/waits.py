@@ -40,7 +40,12 @@ from ros2cc_extract.extract.static.units.wakers.lost_events import (
 )
 from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import keeps_to_itself
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_kept_out
-from ros2cc_extract.extract.static.units.wakers.operations import comes_last, wakings_of
+from ros2cc_extract.extract.static.units.wakers.operations import (
+    comes_last,
+    wakings_of,
+    why_no_item,
+    why_none,
+)
 from ros2cc_extract.extract.static.units.wakers.queue_consumers import (
     may_find_it_done,
     taken_by_itself,
@@ -78,7 +83,6 @@ from ros2cc_extract.spec.effects import (
 )
 from ros2cc_extract.spec.model import ActivityKind
 
-_KEPT = 'it is kept in a collection, and the code that takes it out could not be followed'
 _THERE = 'what the loop asks for is perhaps there at first'
 _OF_FORK = 'a child of os.fork may wait for a lock that another thread held then'
 # What is waited for of one object may be several things.
@@ -191,7 +195,7 @@ class UnitWaits(DataWriters):
         return None if setter is None or is_open else self._names.get(id(setter))
 
     def _resource(self, reference: ResourceRef) -> str:
-        key = (reference.number, reference.ended_by)
+        key = (reference.number, reference.ended_by, reference.until)
         known = self._resources.get(key)
         if known is None:
             text = str(reference) + _PARTS.get(min(reference.ended_by, key=str), '')
@@ -336,14 +340,15 @@ class UnitWaits(DataWriters):
             mine = barriers.of_its_round(raw, doer, visits, mine)
         able = [waking for waking in mine if not never_comes(waking, doer)]
         found = [waker for waking in able for waker in self._wakers(waking, reference, doer, raw)]
-        unsure = uneven or self._why_unsure(raw, reference, mine, doer)
+        unsure = uneven or why_no_item(self._world, reference, mine)
+        unsure = unsure or self._why_unsure(raw, reference, mine, doer)
         unsure = unsure or why_in_another_run(raw, mine, doer)
         unsure = unsure or why_no_thread(mine, doer, self._name) or why_no_end(able, doer)
         if unsure is not None:
             found = list(_unsure(found))
         if not mine and reference.number in self._world.interruptible:
             found = [Waker(by=OUTSIDE, source=raw.source)]
-        why = self._why_open(mine, reference) or unsure or _why_none(raw, mine, doer, self._world)
+        why = self._why_open(mine, reference) or unsure or why_none(raw, mine, doer, self._world)
         return found, why
 
     def _answer_to(self, raw: Blocking, reference: ResourceRef, doer: Doer) -> str | None:
@@ -475,21 +480,6 @@ def _ends_by_itself(wakers: Iterable[Waker]) -> bool:
 def _unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:
     """The same wakers, marked as perhaps not coming."""
     return tuple(replace(waker, conditional=True) for waker in wakers)
-
-
-def _why_none(raw: Blocking, mine: list[Waking], doer: Doer, world: RosWorld) -> Unknown | None:
-    """Why it is not known whether a wait without a known waker ends."""
-    if mine or not isinstance(raw.resource, ResourceRef):
-        return None
-    words = raw.resource.ended_by
-    if Word.ARRIVE in words and isinstance(doer, ActivityState) and doer.count != 1:
-        return Unknown('how many threads come there is not known', raw.source)
-    if words == {Word.END}:
-        is_join = raw.call.endswith('.join')
-        reason = 'no known code starts it' if is_join else 'its end is not known'
-        return Unknown(reason, raw.source)
-    kept = world.kept_inside.get(raw.resource.number)
-    return Unknown(_KEPT, kept) if kept is not None else None
 
 
 def _waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:

@@ -172,7 +172,7 @@ def test_a_repeated_call_with_a_sentinel_waits_in_each_round(loop: str) -> None:
     text = f'{ARCHIVE[:begin]}{loop}\nrclpy.init()\nrclpy.spin(Archive())\n'
     text = text.replace('queue.Queue()', 'queue.Queue(maxsize=4)')
     (unit,) = scan_text(text).units
-    (get,) = unit.activities[0].blocking
+    get = unit.activities[0].blocking[0]
     assert (get.call, [waker.by for waker in get.wakers]) == ('Queue.get', ['take'])
     (put,) = waits(text, 'take')
     assert [waker.by for waker in put.wakers] == ['work' if loop is COLLECTED else TIME]

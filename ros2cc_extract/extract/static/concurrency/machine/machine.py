@@ -73,7 +73,7 @@ class ConcurrentMachine(Machine, ABC):
         """The name that a lock is stored under; a second one of that name gets a number."""
 
     @abstractmethod
-    def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
+    def note_wake(self, thing: Value, word: Word, place: Place, item: Value | None = None) -> None:
         """Something is done to ``thing`` that may end a wait for it."""
 
     @property

@@ -56,7 +56,7 @@ class ActivityState(Doer):
     :param turns: equal for those that have one thread between them.
     :param pool: the pool whose threads run it.
     :param site: equal for one start that is met again.
-    :param wakes: what it does to end waits, as it was seen in the set-up.
+    :param wakes: what it does to end waits, as it was seen in the set-up, and what it puts.
     :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it.
     :param alone: the attributes it is kept in, of which each start has found that the thread there
         has ended; with what starts it, and the holds of locks from that test on.
@@ -85,7 +85,7 @@ class ActivityState(Doer):
     nodes: set[int] = field(default_factory=set)
     things: set[int] = field(default_factory=set)
     site: object = None
-    wakes: list[tuple[Value, Word, Place]] = field(default_factory=list)
+    wakes: list[tuple[Value, Word, Place, Value | None]] = field(default_factory=list)
     thread: int = 0
     on_loop: bool = False
     turns: object = None

@@ -8,7 +8,12 @@ from ros2cc_extract.extract.static.concurrency.machine.counters import Rise
 from ros2cc_extract.extract.static.concurrency.machine.loop_formulas import LoopTest
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Hold
-from ros2cc_extract.extract.static.python.values.values import Instance, Value
+from ros2cc_extract.extract.static.python.values.values import (
+    Const,
+    Instance,
+    Value,
+    options_of,
+)
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
@@ -78,8 +83,10 @@ class ResourceRef(SettableRef):
     :param guard: of a condition.
     :param answered: topics of messages whose answers may be gone, see ``cleared_events.py``.
     :param sent: topics of messages that come before the wait, and behind the one before.
+    :param until: of a queue, the tests of the loop that ends by an item, see ``item_loops.py``.
     """
 
+    until: tuple[LoopTest, ...] = ()
     ended_by: frozenset[Word] = frozenset()
     asked = False
     is_kept = False
@@ -91,6 +98,13 @@ class ResourceRef(SettableRef):
     guard: Guard | None = None
     answered: frozenset[str] = frozenset()
     sent: frozenset[str] = frozenset()
+
+    def with_end(self, until: tuple[LoopTest, ...]) -> ResourceRef:
+        """The same queue, for a loop that takes from it until such an item comes."""
+        reference = ResourceRef(self)
+        reference.__dict__.update(self.__dict__)
+        reference.until, reference.is_kept, reference.asked = until, True, False
+        return reference
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +124,7 @@ class Waking:
     :param repeats: it stands in a loop.
     :param written: names of the data that ``by`` has written by then.
     :param holds: the locks that are held then.
-    :param is_sign: what is put may be a sign to stop for the consumer: a constant, or an object.
+    :param item: what is put.
     """
 
     word: Word
@@ -128,7 +142,13 @@ class Waking:
     repeats: bool = False
     written: frozenset[str] = frozenset()
     holds: frozenset[Hold] = frozenset()
-    is_sign: bool = False
+    item: Value | None = None
+
+    @property
+    def is_sign(self) -> bool:
+        """Whether what is put may be a sign to stop for the consumer: a constant, or an object."""
+        options = options_of(self.item) if self.item is not None else ()
+        return any(isinstance(option, (Const, Instance)) for option in options)
 
 
 class DataRef(EntityRef):

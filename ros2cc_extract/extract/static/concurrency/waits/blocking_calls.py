@@ -57,6 +57,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Instance,
     Mystery,
     Value,
+    choice,
     options_of,
 )
 from ros2cc_extract.source_locations import Place, Unknown
@@ -291,25 +292,28 @@ class Waits(ConcurrentMachine):
         if self.world.effects is not None and self.world.in_callback:
             self.note_blocking(TURN, None, Const(0), place)
 
-    def note_wake(self, thing: Value, word: Word, place: Place, *, is_sign: bool = False) -> None:
+    def note_wake(self, thing: Value, word: Word, place: Place, item: Value | None = None) -> None:
         """Something is done to ``thing`` that may end a wait for it."""
         world = self.world
         activity = world.activity
         if activity is not None and world.effects is None and not activity.is_executor:
-            activity.wakes.append((thing, word, place))  # it may be followed once more
+            activity.wakes.append((thing, word, place, item))  # it may be followed once more
             return
         for option in options_of(thing):
             if world.effects is not None:
                 world.effects.woken.setdefault(id(option), len(world.effects.blocking))
             wakings = world.wakings.setdefault(id(option), [])
-            waking = self._waking(option, word, place, is_sign=is_sign)
-            if not any(_is_same_waking(waking, other) for other in wakings):
+            waking = self._waking(option, word, place, item)
+            same = next((n for n, w in enumerate(wakings) if _is_same_waking(waking, w)), None)
+            if same is not None:
+                wakings[same] = _with_item(wakings[same], item)
+            else:
                 wakings.append(waking)
                 if isinstance(option, Instance):
                     self._made_there(option)
             touch(world.activity, option)
 
-    def _waking(self, thing: Value, word: Word, place: Place, *, is_sign: bool) -> Waking:
+    def _waking(self, thing: Value, word: Word, place: Place, item: Value | None) -> Waking:
         world = self.world
         doer = world.activity or (world.current if world.effects is not None else None)
         is_uncalled = doer is None and world.when is When.LATER
@@ -329,7 +333,7 @@ class Waits(ConcurrentMachine):
             repeats=bool(world.reading.loops),
             written=frozenset(access.name for access in (world.effects or EffectLog()).writes),
             holds=lost_notifications.holds_of(world),
-            is_sign=is_sign,
+            item=item,
         )
 
 
@@ -405,6 +409,14 @@ def _is_same_waking(one: Waking, other: Waking) -> bool:
         and one.place == other.place
         and one.uncalled == other.uncalled
     )
+
+
+def _with_item(waking: Waking, item: Value | None) -> Waking:
+    """The same operation, in which another item may be put as well."""
+    if item is None or waking.item is None or item == waking.item:
+        return waking
+    options = dict.fromkeys((*options_of(waking.item), *options_of(item)))
+    return replace(waking, item=choice(list(options)))
 
 
 def _note_round(effects: EffectLog, block: Blocking, current: tuple[int, ...]) -> None:

@@ -212,7 +212,8 @@ def _touching(how: str, word: Word) -> Handler:
         _note_touch(machine, receiver, how, call)
         if word is Word.PUT:
             give_items(machine, receiver, call)
-        machine.note_wake(receiver, word, call.place)
+        item = call.argument(0, 'item') if word is Word.PUT else None
+        machine.note_wake(receiver, word, call.place, item)
         return machine.mystery(f'result of {how}', call.place, f'{how}()')
 
     return handler
@@ -228,7 +229,8 @@ def _awaitable(name: str, word: Word | None = None) -> Handler:
                 machine.note_blocking(called, receiver, None, inner.place)
                 machine.world.awaited_of_loops.append(receiver)
             if word is not None:
-                machine.note_wake(receiver, word, inner.place)
+                item = call.argument(0, 'item') if word is Word.PUT else None
+                machine.note_wake(receiver, word, inner.place, item)
             return machine.mystery(f'result of {name}', inner.place, f'await {name}(…)')
 
         return coroutine_of(name, awaited, call)

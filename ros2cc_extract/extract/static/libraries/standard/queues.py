@@ -15,7 +15,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     Handler,
     Instance,
     Value,
-    options_of,
 )
 
 
@@ -61,15 +60,9 @@ def _put(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance) and may_be_full(receiver) and _waits(machine, call, 1):
         machine.note_blocking('Queue.put', receiver, call.argument(2, 'timeout'), call.place)
     give_items(machine, receiver, call)
-    machine.note_wake(receiver, Word.PUT, call.place, is_sign=_is_sign(call))
+    machine.note_wake(receiver, Word.PUT, call.place, call.argument(0, 'item'))
     _move(machine, receiver, Word.PUT)
     return NONE
-
-
-def _is_sign(call: Call) -> bool:
-    """Whether what is put may mean the end to its consumer."""
-    items = (*call.args[:1], *call.keywords.values())
-    return any(isinstance(o, (Const, Instance)) for item in items for o in options_of(item))
 
 
 def _without_waiting(word: Word) -> Handler:
@@ -78,12 +71,12 @@ def _without_waiting(word: Word) -> Handler:
             _note_retried(machine, receiver, word, call)
         if word is Word.PUT:
             give_items(machine, receiver, call)
-        is_sign = word is Word.PUT and _is_sign(call)
-        machine.note_wake(receiver, word, call.place, is_sign=is_sign)
+        item = call.argument(0, 'item') if word is Word.PUT else None
+        machine.note_wake(receiver, word, call.place, item)
         if word is not Word.DONE:
             _move(machine, receiver, word)
-        item = taken_out(machine, receiver, call) if word is Word.GET else None
-        return item or machine.mystery('what was put into a queue', call.place, 'get_nowait()')
+        taken = taken_out(machine, receiver, call) if word is Word.GET else None
+        return taken or machine.mystery('what was put into a queue', call.place, 'get_nowait()')
 
     return handler
 

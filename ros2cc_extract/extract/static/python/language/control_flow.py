@@ -12,7 +12,7 @@ from ros2cc_extract.extract.static.python.branching import (
     open_tests,
     parameter_branches,
 )
-from ros2cc_extract.extract.static.python.language import endless_iterations
+from ros2cc_extract.extract.static.python.language import loops_as_while
 from ros2cc_extract.extract.static.python.machine import path_facts
 from ros2cc_extract.extract.static.python.machine.block_exits import BREAK, CONTINUE, NEXT, RETURN
 from ros2cc_extract.extract.static.python.machine.dependences import NOTHING_ASKED
@@ -134,7 +134,7 @@ def _case(machine: Machine, case: ast.match_case, frame: Frame) -> int:
 
 def run_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int:
     """Run a ``for`` over what it goes over."""
-    endless = endless_iterations.as_while(machine, node, frame)
+    endless = loops_as_while.as_while(machine, node, frame)
     if endless is not None:
         return run_while(machine, endless, frame)
     place = frame.place(node.iter)

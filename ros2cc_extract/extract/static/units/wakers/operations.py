@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ros2cc_extract.extract.static.concurrency.machine.item_values import ends
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
@@ -11,6 +13,10 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Blocking
+
+_KEPT = 'it is kept in a collection, and the code that takes it out could not be followed'
 
 
 def wakings_of(world: RosWorld, reference: ResourceRef) -> list[Waking]:
@@ -19,13 +25,31 @@ def wakings_of(world: RosWorld, reference: ResourceRef) -> list[Waking]:
 
     A callback makes an object of its own each time; what ends the wait for one of them, from one
     place, ends it for all, where nothing is seen that ends it for this one. What notifies of other
-    data than a wait for a condition asks for does not end it.
+    data than a wait for a condition asks for does not end it, nor what is put into a queue but is
+    not the item at which a loop ends.
     """
-    found = _all_of(world, reference)
+    found = [w for w in _all_of(world, reference) if not _is_other_item(w, reference)]
     names = reference.guard.until if reference.guard is not None else frozenset()
     if not names or _may_be_passed_on(world, reference, names, found):
         return found
     return [w for w in found if w.word is not Word.SET or _may_speak_of(names, w.by)]
+
+
+def _is_other_item(waking: Waking, reference: ResourceRef) -> bool:
+    is_asked = bool(reference.until) and waking.word is Word.PUT
+    return is_asked and ends(reference.until, waking.item) is False
+
+
+def why_no_item(world: RosWorld, reference: ResourceRef, mine: Sequence[Waking]) -> Unknown | None:
+    """Why it is not known whether a loop is ended by the item that it asks for."""
+    if not reference.until:
+        return None
+    puts = [w for w in _all_of(world, reference) if w.word is Word.PUT]
+    if puts and not mine:
+        return Unknown('nothing that is put into it ends the loop', reference.made)
+    unsure = (w.place for w in mine if ends(reference.until, w.item) is None)
+    place = next(unsure, None)
+    return Unknown('whether what is put there ends the loop', place) if place is not None else None
 
 
 def is_of_other_data(world: RosWorld, reference: ResourceRef) -> bool:
@@ -82,3 +106,18 @@ def comes_last(waking: Waking, world: RosWorld) -> bool:
     """Whether the set-up does it when its last spin is over, and no callback runs any more."""
     is_behind = 0 < waking.spins == world.main_spins
     return waking.by is None and (waking.after_spin or is_behind)
+
+
+def why_none(raw: Blocking, mine: Sequence[Waking], doer: Doer, world: RosWorld) -> Unknown | None:
+    """Why it is not known whether a wait without a known waker ends."""
+    if mine or not isinstance(raw.resource, ResourceRef):
+        return None
+    words = raw.resource.ended_by
+    if Word.ARRIVE in words and isinstance(doer, ActivityState) and doer.count != 1:
+        return Unknown('how many threads come there is not known', raw.source)
+    if words == {Word.END}:
+        is_join = raw.call.endswith('.join')
+        reason = 'no known code starts it' if is_join else 'its end is not known'
+        return Unknown(reason, raw.source)
+    kept = world.kept_inside.get(raw.resource.number)
+    return Unknown(_KEPT, kept) if kept is not None else None

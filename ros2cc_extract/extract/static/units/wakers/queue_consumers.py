@@ -22,6 +22,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.units.wakers.initial_permits import Doer
+from ros2cc_extract.extract.static.units.wakers.operations import wakings_of
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import RE_ENTRANT, TIME, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import ActivityKind
@@ -96,7 +97,7 @@ def _is_ended_by_callbacks(loop: Blocking, world: RosWorld, doers: Sequence[Doer
         writes = (write for each in callbacks if each.effects for write in each.effects.writes)
         return any(write.name in on.names for write in writes)
     if isinstance(on, ResourceRef):
-        wakings = world.wakings.get(on.number, ())
+        wakings = (w for w in wakings_of(world, on) if w.word in on.ended_by)
         return any(isinstance(waking.by, EntityState) for waking in wakings)
     return True
 

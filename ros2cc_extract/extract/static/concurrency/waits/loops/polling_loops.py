@@ -16,7 +16,11 @@ from ros2cc_extract.extract.static.concurrency.machine.machine import Concurrent
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
-from ros2cc_extract.extract.static.concurrency.waits.loops import message_loops, retry_loops
+from ros2cc_extract.extract.static.concurrency.waits.loops import (
+    item_loops,
+    message_loops,
+    retry_loops,
+)
 from ros2cc_extract.extract.static.concurrency.waits.loops.counted_tests import rise_of
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import (
     End,
@@ -303,6 +307,8 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
         return
     asked = machine.world.reading.asked.get(frame.place(loop))
     inside = effects.blocking[before.waits :]
+    if item_loops.note(machine, loop, frame):
+        return
     if _only_asks(machine, inside) and message_loops.note(machine, loop, frame):
         return
     if _waits_inside(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):

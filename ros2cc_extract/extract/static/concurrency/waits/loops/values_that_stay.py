@@ -39,12 +39,12 @@ def tests_of(
     :param tests: those that may end it; ``shown`` are the same with data for local copies of it.
     """
     return tuple(
-        LoopTest(_formula(machine, each, frame), stays_if=_stays_if(test, loop))
+        LoopTest(_formula(machine, each, frame), stays_if=stays_if(test, loop))
         for test, each in zip(tests, shown, strict=True)
     )
 
 
-def _stays_if(test: ast.expr, loop: ast.While) -> bool | None:
+def stays_if(test: ast.expr, loop: ast.While) -> bool | None:
     """How a test comes out where the loop goes on; ``None`` where it may leave it either way."""
     if test is loop.test:
         return True

@@ -1,0 +1,71 @@
+"""
+``for`` loops that are ``while True`` in other words.
+
+``for _ in itertools.count():`` has a name that grows in each round;
+``for item in iter(function, sentinel):`` takes ``item = function()`` in each round, and is left
+where that is the sentinel. Source: CPython 3.12, library reference, "Built-in
+Functions", ``iter``.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+
+from ros2cc_extract.extract.static.program.text_queries import noted_on
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.values.values import Library
+
+_ENDLESS = {'itertools.count': 2, 'itertools.repeat': 1}
+"""What gives items forever, with at most so many arguments."""
+_REPEATING = 'iter'
+
+
+def as_while(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> ast.While | None:
+    """The ``while`` loop that does the same, if there is one."""
+    items = node.iter
+    if not isinstance(items, ast.Call) or not isinstance(node.target, ast.Name):
+        return None
+    if not isinstance(node, ast.For):
+        return None
+    if not isinstance(items.func, (ast.Name, ast.Attribute)) or items.keywords:
+        return None
+    name = items.func.id if isinstance(items.func, ast.Name) else items.func.attr
+    if name == _REPEATING and isinstance(items.func, ast.Name):
+        is_plain = len(items.args) == 2 and not any(isinstance(e, ast.Starred) for e in items.args)
+        return noted_on(node, 'as_while', _repeated) if is_plain else None
+    if not any(name == known.rpartition('.')[2] for known in _ENDLESS):
+        return None
+    called = machine.evaluate(items.func, frame)
+    if not isinstance(called, Library) or len(items.args) > _ENDLESS.get(called.name, -1):
+        return None
+    loop = noted_on(node, 'as_while', _endless)
+    machine.assign(node.target, machine.mystery('a counter', frame.place(node.iter)), frame)
+    return loop
+
+
+def _endless(node: ast.For) -> ast.While:
+    assert isinstance(node.target, ast.Name)
+    grows = ast.AugAssign(node.target, ast.Add(), ast.Constant(1))
+    return _made(node, [grows], node.orelse)
+
+
+def _repeated(node: ast.For) -> ast.While:
+    assert isinstance(node.target, ast.Name) and isinstance(node.iter, ast.Call)
+    function, sentinel = node.iter.args
+    taken = ast.Assign([node.target], ast.Call(function, [], []))
+    item = ast.Name(node.target.id, ast.Load())
+    is_last = ast.Compare(item, [ast.Eq()], [sentinel])
+    return _made(node, [taken, ast.If(is_last, [*node.orelse, ast.Break()], [])])
+
+
+def _made(node: ast.For, first: list[ast.stmt], orelse: Sequence[ast.stmt] = ()) -> ast.While:
+    """A loop with the body of ``node``, and ``first`` in each round."""
+    loop = ast.While(ast.Constant(True), [*first, *node.body], [*orelse])
+    ast.copy_location(loop, node)
+    known = set(map(id, ast.walk(node)))
+    for part in (part for each in (loop.test, *first) for part in ast.walk(each)):
+        if id(part) not in known:
+            ast.copy_location(part, node.iter)
+    return loop
