@@ -81,8 +81,7 @@ if __name__ == '__main__':
 #     reads A.never @39
 #   timer work in a_default every 1
 #     blocks time.sleep 0.1 s @49
-#     blocks endless loop on ? @48
-#       ended by ?
+#     blocks endless loop on the end of the program @48
 #     reads A.left @46
 #     writes A.left update @47
 #   subscription on_in in a_default key=in

@@ -65,6 +65,5 @@ if __name__ == '__main__':
 #     blocks time.sleep 0.1 s @39
 #     blocks time.sleep 0.2 s @39
 #     blocks time.sleep 0.02 s @41
-#     blocks endless loop on ? @40
-#       ended by ?
+#     blocks endless loop on the end of the program @40
 #     reads A.steps iterates list @38

@@ -255,9 +255,7 @@ def test_an_answer_that_a_branch_may_not_pass_on_is_told_once() -> None:
 
 def test_a_loop_without_end_is_said_to_go_on() -> None:
     (wait,) = calls(None, call='endless loop')
-    wait = replace(wait, escapes=Unknown('nothing but the end of the program ends the loop'))
+    reason = 'only an exception or the end of the program ends it'
+    wait = replace(wait, escapes=Unknown(reason))
     finding = only(unit(threads(2), timer('feed', blocking=(wait,))), 'CC120')
-    assert finding.message == (
-        'not decided: feed waits in a loop without end, and only an exception or the end of the '
-        'program ends it'
-    )
+    assert finding.message == (f'not decided: feed waits in a loop without end, and {reason}')

@@ -49,8 +49,8 @@ from ros2cc_extract.findings.waits.waits import (
 )
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import WORKING_LOOP
-from ros2cc_extract.spec.model import Activity, ActivityKind
+from ros2cc_extract.spec.effects import ENDLESS_LOOP, WORKING_LOOP
+from ros2cc_extract.spec.model import Activity, ActivityKind, Callback
 
 EXPLAINED = (
     own_group_call,
@@ -90,7 +90,8 @@ def hits_of(
     """
     for together, stuck in unexplained(context):
         if concerns(together):
-            yield _hit(together, stuck, context)
+            is_loop = together[0].wait.block.call == ENDLESS_LOOP
+            yield _of_loop(together[0], context) if is_loop else _hit(together, stuck, context)
 
 
 def _for_writers(context: Context) -> Iterator[AnyWait]:
@@ -212,6 +213,47 @@ def _hit(together: list[Stuck], stuck: Sequence[Stuck], context: Context) -> Hit
     )
 
 
+def _of_loop(stuck: Stuck, context: Context) -> Hit:
+    """A callback that never ends is an error where another one never runs again by that."""
+    held, by = _shut_out_by(stuck.doer, context)
+    who = called(stuck.doer)
+    so = f'{listing(map(called, held))} never run{"s" * (len(held) == 1)} again, as {by}'
+    itself = 'what arrives for it later is never taken'
+    return Hit(
+        place=stuck.wait.place,
+        message=f'{who} never leaves this loop: {so if held else itself}',
+        help='do one round of the loop in a timer, or run the loop in a thread of its own',
+        severity=None if held else Severity.NOTE,
+        subjects=(stuck.doer.name, *(each.name for each in held)),
+        chain=stuck.wait.chain,
+        related=tuple(made_at(stuck.doer, *held)),
+        run=shown_hang(stuck.doer, {stuck.doer.name}, context),
+    )
+
+
+def _shut_out_by(doer: Doer, context: Context) -> tuple[list[Callback], str]:
+    """The user's callbacks that cannot run while ``doer`` does, and why."""
+    others = [each for each in context.written if each.name != doer.name]
+    executor = context.unit.executor
+    if is_one_thread(executor):
+        return others, f'{called(doer)} holds the only thread of the executor'
+    group = context.exclusive_group(doer) if isinstance(doer, Callback) else None
+    shut = [each for each in others if group is not None and context.group_of(each) == group]
+    if shut and group is not None:
+        return shut, f'{group.display_name} is closed'
+    endless = [each for each in context.written if _is_endless(each)]
+    workers = workers_of(executor)
+    if isinstance(workers, Workers) and not workers.is_default and len(endless) >= workers.count:
+        held = [each for each in others if each not in endless]
+        return held, f'no thread is left: {listing(map(called, endless))} hold them'
+    return [], ''
+
+
+def _is_endless(callback: Callback) -> bool:
+    loops = (block for block in callback.blocking if block.call == ENDLESS_LOOP)
+    return any(block.escapes is None for block in loops)
+
+
 def _repeated(stuck: Sequence[Stuck]) -> tuple[Doer, ...]:
     """The callbacks that stand still in several runs at a time."""
     doers = [each.doer for each in stuck]
@@ -280,6 +322,8 @@ RULE = Rule(
     'too early, gives no more than earlier waits use up, or waits itself. This is the general '
     'rule; a more specific rule reports the wait where one applies. Executors of one program '
     'that run at the same time and wait for each other are checked together. The run is shown. '
+    'A callback that never leaves a `while True:` or `while rclpy.ok():` is one too where others '
+    'share its thread or its group, and a note where none does. '
     'A note: several runs of one reentrant callback at the same time are needed to hold all '
     'threads or a lock; whether so many occur depends on the rates. A warning: earlier runs use '
     'up a bounded queue or a semaphore, and what refills it, or what the refilling thread waits '
@@ -310,6 +354,7 @@ class Arms(Node):
 """,
     mend='Let what ends the wait run beside it: on a thread and in a group of its own. Break a '
     'circle of waits: let one of them send by `call_async` and go on in a done-callback. Give a '
-    'wait that nobody may end a time-out.',
+    'wait that nobody may end a time-out. Do the rounds of an endless loop in a timer, or run the '
+    'loop in a thread of its own.',
     find=find,
 )

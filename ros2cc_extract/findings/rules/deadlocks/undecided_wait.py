@@ -209,7 +209,7 @@ def _why(block: Blocking) -> str:
 def _call_and_reason(wait: AnyWait, reason: str) -> tuple[str, str]:
     """Where it waits, and why that is open: the reason of an unknown call begins with the call."""
     if wait.block.call == ENDLESS_LOOP:
-        return 'a loop without end', 'only an exception or the end of the program ends it'
+        return 'a loop without end', _why(wait.block)
     call, colon, why = _why(wait.block).partition(': ')
     if wait.block.call != UNKNOWN_WAIT or not colon or not reason.endswith(why):
         return waits_in(wait), reason

@@ -17,6 +17,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWo
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import DataRef, ResourceRef
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import sent_by_now, sent_up_to
 from ros2cc_extract.extract.static.concurrency.waits.loops import (
+    endless_loops,
     item_loops,
     message_loops,
     retry_loops,
@@ -37,7 +38,6 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     asks_for_service,
     asks_object,
     exit_tests,
-    leaves,
     only_sleeps,
     runs_out,
 )
@@ -48,7 +48,6 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.values_that_stay impo
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     awaits_each_round,
     call_of_loop,
-    is_endless,
     is_idle,
     minds_nothing,
     spins,
@@ -73,7 +72,6 @@ from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import (
     ANSWER_LOOP,
-    ENDLESS_LOOP,
     POLLING_LOOP,
     TIME,
     WORKING_LOOP,
@@ -311,16 +309,14 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
         return
     if _only_asks(machine, inside) and message_loops.note(machine, loop, frame):
         return
-    if _waits_inside(machine, loop, effects, before) or any(_is_guarded(b, asked) for b in inside):
+    if any(map(_stands_for_the_loop, inside)) or endless_loops.note(machine, loop, frame):
+        return
+    if any(_is_guarded(block, asked) for block in inside):
         return
     implied = _implied_by_exits(machine, loop, frame)
     if implied is not None and _note_things(machine, loop, frame, implied):
         return
     if not tests:
-        if is_endless(loop) and machine.world.in_callback and not leaves(loop):
-            place = frame.place(loop)
-            unknown = Unknown('nothing but the end of the program ends the loop', place)
-            machine.note_loop_on_data(ENDLESS_LOOP, unknown, None, place)
         return
     asked_of_data = [test for test in tests if not asks_object(test)]
     seen = seen_by(machine, tests_of_data(machine, asked_of_data, loop, frame), frame)
@@ -459,15 +455,9 @@ def _is_guarded(block: Blocking, asked: Asked | None) -> bool:
     return guard is not None and asked is not None and guard.hold in asked.holds
 
 
-def _waits_inside(
-    machine: ConcurrentMachine, loop: ast.While, effects: EffectLog, before: Mark
-) -> bool:
-    """Whether the waits inside stand for the loop; a thread's loop ends by its test."""
-    inside = effects.blocking[before.waits :]
-    others = [block for block in inside if not _is_pause(machine, block.call)]
-    if any(b.call in ('busy wait', ANSWER_LOOP) or b.suspends or 'spin' in b.call for b in others):
-        return True
-    return bool(others) and machine.world.activity is None
+def _stands_for_the_loop(block: Blocking) -> bool:
+    """Whether a wait in its rounds lets others run, or is noted as the loop itself."""
+    return block.call in ('busy wait', ANSWER_LOOP) or block.suspends or 'spin' in block.call
 
 
 def _only_asks(machine: ConcurrentMachine, inside: Sequence[Blocking]) -> bool:
