@@ -117,7 +117,8 @@ def placed(version: str, wheels: Path) -> Place | None:
     folder.mkdir(parents=True)
     place = Place(folder, made(base, folder / 'an environment'), found[0])
     pip = [place.python, '-m', 'pip', 'install', *QUIET]
-    subprocess.run([*pip, found[0], *map(str, requirements()), 'setuptools>=70.1'], check=True)
+    tools = ('setuptools>=70.1', 'pre-commit>=3.2')  # that tests use themselves
+    subprocess.run([*pip, found[0], *map(str, requirements()), *tools], check=True)
     copied_tree(place.tree)
     (folder / 'home').mkdir()
     if os.geteuid() == 0:

@@ -40,9 +40,9 @@ def free_domains(count: int) -> Iterator[range]:
 def _is_held(number: int, held: ExitStack) -> bool:
     """Hold a domain if nobody else does."""
     path = Path(tempfile.gettempdir()) / f'ros2cc-test-domain-{number}.lock'
-    lock = held.enter_context(path.open('w'))
     try:
+        lock = held.enter_context(path.open('w'))
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
+    except (BlockingIOError, PermissionError):  # the second where another user has made the file
         return False
     return True

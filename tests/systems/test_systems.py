@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import re
+import shlex
 from pathlib import Path
 
 import pytest
@@ -58,7 +59,7 @@ def test_who_is_not_in_sight_may_offer_what_is_wanted_in_its_namespace(
     elsewhere: str | None, codes: list[str], tmp_path: Path
 ) -> None:
     """Topics of sensors and what a program makes of them differ by the namespace only."""
-    programs = HERE / 'programs'
+    programs = shlex.quote(str(HERE / 'programs'))
     beside = '' if elsewhere is None else f'<node pkg="filters" exec="filter" {elsewhere}/>'
     path = tmp_path / 'all.launch.xml'
     path.write_text(
@@ -74,7 +75,8 @@ def test_who_is_not_in_sight_may_offer_what_is_wanted_in_its_namespace(
 
 def test_who_is_started_by_a_file_that_is_not_in_sight_may_offer_anything(tmp_path: Path) -> None:
     """As a simulator, which publishes the time."""
-    camera = f'python3 {HERE}/programs/camera.py --ros-args -p use_sim_time:=true'
+    program = shlex.quote(str(HERE / 'programs' / 'camera.py'))
+    camera = f'python3 {program} --ros-args -p use_sim_time:=true'
     path = tmp_path / 'all.launch.xml'
     text = (
         f'<launch><arg name="world"/>{{}}<executable cmd="{camera} -p frame_rate:=3.0"/></launch>'
