@@ -104,6 +104,10 @@ class Notes(Effects):
         polling_loops.begin(self, node, frame, implied)
         return before
 
+    def begin_rounds(self, node: ast.While) -> object:
+        """It may look for data of others in each round, and end by its number of rounds."""
+        return polling_loops.mark(self) if goes_round(node) else None
+
     def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:
         """After one round it shows what the loop waits for."""
         if not goes_round(node):

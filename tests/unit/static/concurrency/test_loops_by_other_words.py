@@ -57,6 +57,7 @@ def loops(does: str) -> list[str]:
         LOOP.format('itertools.count()'),
         LOOP.format('count(1, 2)'),
         LOOP.format('repeat(None)'),
+        LOOP.format('range(5)'),
         AGAIN.format('return self.tick(times)'),
         AGAIN.format('self.tick(times=times)'),
         AGAIN.format('return self.tick(times)\nprint(self.text)'),
@@ -89,7 +90,6 @@ def test_calls_inside_calls_end_by_an_error(does: str, expected: list[bool]) -> 
     'does',
     [
         LOOP.format('repeat(None, 5)'),
-        LOOP.format('range(5)'),
         'for turn in count():\n    if turn > 5:\n        break\n    time.sleep(0.1)',
         AGAIN.format('self.tick(times + 1)'),
         AGAIN.format('self.tick(times)\nself.text = None'),

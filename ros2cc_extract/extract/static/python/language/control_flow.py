@@ -138,6 +138,8 @@ def run_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int
     if endless is not None:
         return run_while(machine, endless, frame)
     place = frame.place(node.iter)
+    counting = loops_as_while.counting(node)
+    begun = machine.begin_rounds(counting) if counting is not None else None
     values = open_tests.evaluate_iterated(machine, node, frame)
     machine.note_iteration(node.iter, frame)
     values = iterators.iterated(machine, values, place)
@@ -155,6 +157,8 @@ def run_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int
                 return _round(machine, node.body, frame)
 
             flow = loops.run_loop(machine, items, once, place)
+        if counting is not None and begun is not None:
+            machine.end_loop(counting, frame, begun)
         return _or_else(machine, node, flow, frame)
 
 

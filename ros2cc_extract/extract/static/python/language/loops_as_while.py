@@ -12,7 +12,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence
 
-from ros2cc_extract.extract.static.program.text_queries import noted_on
+from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import Library
@@ -45,6 +45,31 @@ def as_while(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> as
     return loop
 
 
+def counting(node: ast.For | ast.AsyncFor) -> ast.While | None:
+    """
+    The ``while`` that counts its rounds, for ``for _ in range(n):`` with a way out of it.
+
+    It is there to be looked at; the ``for`` is what is run.
+    """
+    items, target = node.iter, node.target
+    if not isinstance(node, ast.For) or not isinstance(items, ast.Call):
+        return None
+    is_counted = isinstance(items.func, ast.Name) and items.func.id == 'range' and items.args
+    if not is_counted or not isinstance(target, ast.Name):
+        return None
+    return noted_on(node, 'counting', _counting)
+
+
+def _counting(node: ast.For) -> ast.While | None:
+    assert isinstance(node.target, ast.Name) and isinstance(node.iter, ast.Call)
+    if not any(isinstance(part, (ast.Break, ast.Return)) for part in walk(node)):
+        return None
+    count = ast.Name(node.target.id, ast.Load())
+    test = ast.Compare(count, [ast.Lt()], [node.iter.args[-1]])
+    grows = ast.AugAssign(node.target, ast.Add(), ast.Constant(1))
+    return _made(node, [grows], node.orelse, test)
+
+
 def _endless(node: ast.For) -> ast.While:
     assert isinstance(node.target, ast.Name)
     grows = ast.AugAssign(node.target, ast.Add(), ast.Constant(1))
@@ -60,9 +85,14 @@ def _repeated(node: ast.For) -> ast.While:
     return _made(node, [taken, ast.If(is_last, [*node.orelse, ast.Break()], [])])
 
 
-def _made(node: ast.For, first: list[ast.stmt], orelse: Sequence[ast.stmt] = ()) -> ast.While:
+def _made(
+    node: ast.For,
+    first: list[ast.stmt],
+    orelse: Sequence[ast.stmt] = (),
+    test: ast.expr | None = None,
+) -> ast.While:
     """A loop with the body of ``node``, and ``first`` in each round."""
-    loop = ast.While(ast.Constant(True), [*first, *node.body], [*orelse])
+    loop = ast.While(test or ast.Constant(True), [*first, *node.body], [*orelse])
     ast.copy_location(loop, node)
     known = set(map(id, ast.walk(node)))
     for part in (part for each in (loop.test, *first) for part in ast.walk(each)):

@@ -113,6 +113,10 @@ class Observer:
         """Begin a ``while`` whose test shows ``implied``; ``end_loop`` is given the result."""
         return None
 
+    def begin_rounds(self, node: ast.While) -> object:
+        """Begin a ``for`` over numbers, as the ``while`` that counts; as ``begin_loop``."""
+        return None
+
     def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:
         """One round of a ``while`` has been followed that may come to another one."""
 
