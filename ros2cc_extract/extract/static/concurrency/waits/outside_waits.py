@@ -118,7 +118,8 @@ def note_cancelled(world: ConcurrentWorld, name: str, on: Value | None) -> None:
     Source: CPython 3.12, ``asyncio/runners.py`` (SIGINT cancels the main task).
     """
     is_future = name == AWAIT and on is not None and is_of_loop(on)
-    if isinstance(on, Instance) and (is_future or name == f'{AWAIT} asyncio.Event.wait'):
+    is_event = name.removeprefix(f'{AWAIT} ') == 'asyncio.Event.wait'
+    if isinstance(on, Instance) and (is_future or is_event):
         world.interruptible.add(id(on))
 
 
