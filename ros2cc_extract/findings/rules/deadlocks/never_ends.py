@@ -272,10 +272,13 @@ def _help_where_repeated(repeated: Sequence[Doer]) -> str:
     return f'put {names} into a mutually exclusive group of its own, with a thread to spare'
 
 
+_KEEPING = ('Event.wait', 'asyncio.Event.wait', 'await')
+
+
 def _keeps_the_program(stuck: Stuck) -> bool:
     """What no other code touches may be meant to keep ``main`` from its end."""
     is_main = isinstance(stuck.doer, Activity) and stuck.doer.kind is ActivityKind.MAIN
-    return is_main and not stuck.enders and stuck.wait.block.call == 'Event.wait'
+    return is_main and not stuck.enders and stuck.wait.block.call in _KEEPING
 
 
 def _help(first: Stuck, together: Sequence[Stuck], context: Context) -> str:

@@ -93,7 +93,8 @@ class Waits(ConcurrentMachine):
         if effects is None or is_main(world.activity):
             self._note_outside(name, on, seconds, place)
             outside_waits.note_interruptible(world, name, on)
-        if world.is_set_up_on_loop or is_main(world.activity):
+        is_unnamed = isinstance(on, Instance) and on.hint is None
+        if world.is_set_up_on_loop or (is_unnamed and is_main(world.activity)):
             outside_waits.note_cancelled(world, name, on)
         block, thing = self._block(name, on, seconds, place)
         if effects is None:

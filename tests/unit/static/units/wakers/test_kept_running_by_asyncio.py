@@ -40,7 +40,6 @@ main()
         'await asyncio.Future()',
         'await asyncio.get_running_loop().create_future()',
         'await asyncio.Event().wait()',
-        'stop = asyncio.Event(); await stop.wait()',
     ],
 )
 def test_who_keeps_a_program_running_waits_for_the_signal(wait: str) -> None:
