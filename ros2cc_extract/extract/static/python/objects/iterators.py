@@ -1,5 +1,6 @@
 """
-What a loop goes over round by round: objects with ``__iter__`` and ``__next__``, repeated calls.
+What a loop goes over round by round: objects with ``__iter__`` and ``__next__``, repeated calls,
+the lines of streams.
 
 Source: CPython 3.12, ``iter(callable, sentinel)``, library reference, "Built-in Functions".
 """
@@ -15,6 +16,8 @@ from ros2cc_extract.extract.static.python.values.values import (
     Class,
     Heaped,
     Instance,
+    Library,
+    Native,
     Value,
 )
 from ros2cc_extract.source_locations import Place
@@ -45,10 +48,19 @@ def next_of(machine: Machine, value: Value, place: Place) -> Callable[[], Value]
     """Gives an item each time, where ``value`` is an iterator of its own."""
     if isinstance(value, RepeatedCall):
         return lambda: machine.call(value.function, Call(place))
-    method = _method(machine, value, '__next__', place)
+    method = _method(machine, value, '__next__', place) or _of_lines(machine, value, place)
     if method is None:
         return None
     return lambda: machine.call(method, Call(place))
+
+
+def _of_lines(machine: Machine, value: Value, place: Place) -> Value | None:
+    """``readline`` of a stream of a library, which gives its lines (library reference, ``io``)."""
+    is_stream = isinstance(value, Instance) and isinstance(value.cls, Library)
+    if not is_stream and not (isinstance(value, Library) and value.name == 'sys.stdin'):
+        return None
+    method = machine.attribute(value, 'readline', place)
+    return method if isinstance(method, (Library, Native)) else None
 
 
 def _method(machine: Machine, value: Value, name: str, place: Place) -> Bound | None:
