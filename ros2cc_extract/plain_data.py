@@ -12,7 +12,17 @@ from dataclasses import MISSING, fields, is_dataclass
 from enum import Enum
 from functools import cache, cached_property
 from types import NoneType, UnionType
-from typing import Any, Generic, TypeVar, Union, cast, get_args, get_origin, get_type_hints
+from typing import (
+    Any,
+    Generic,
+    TypeGuard,
+    TypeVar,
+    Union,
+    cast,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from ros2cc_extract.errors import Ros2ccError
 
@@ -86,9 +96,9 @@ def _both_ways(kind: Any) -> tuple[Function, Function]:
         return _of_tuple(arguments)
     if origin in _MAPPINGS:
         return _of_mapping(*arguments)
-    if isinstance(kind, type) and issubclass(kind, Enum):
+    if _is_class(kind) and issubclass(kind, Enum):
         return _of_enumeration(kind)
-    if isinstance(kind, type) and is_dataclass(kind):
+    if _is_class(kind) and is_dataclass(kind):
         return _of_dataclass(kind)
     return _nothing, _nothing
 
@@ -143,10 +153,15 @@ def _leaves_of(kinds: tuple[Any, ...]) -> frozenset[type]:
 
 
 def _form_of(kind: Any) -> type:
-    if isinstance(kind, type) and issubclass(kind, Enum):
+    if _is_class(kind) and issubclass(kind, Enum):
         return str
     named = get_origin(kind) in _MAPPINGS and get_args(kind)[0] is str
-    return dict if isinstance(kind, type) or named else list
+    return dict if _is_class(kind) or named else list
+
+
+def _is_class(kind: Any) -> TypeGuard[type[Any]]:
+    """CPython 3.10 calls ``tuple[int, ...]`` a class too."""
+    return isinstance(kind, type) and get_origin(kind) is None
 
 
 def _of_tuple(kinds: tuple[Any, ...]) -> tuple[Function, Function]:

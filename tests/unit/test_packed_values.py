@@ -35,6 +35,7 @@ class Tree:
     roles: Mapping[tuple[str, tuple[int, ...]], bool]
     best: Leaf | str | None = None
     pair: tuple[int, Leaf] = (0, Leaf('none'))
+    fallen: tuple[Leaf, ...] | None = None
     origin: object = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
@@ -52,6 +53,7 @@ TREES = st.builds(
     st.dictionaries(st.tuples(st.text(), st.lists(st.integers()).map(tuple)), st.booleans()),
     st.none() | LEAVES | st.text(),
     st.tuples(st.integers(), LEAVES),
+    st.none() | st.lists(LEAVES, max_size=2).map(tuple),
 )
 PLAIN = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(),

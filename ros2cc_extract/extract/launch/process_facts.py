@@ -17,6 +17,7 @@ from ros2cc_extract.extract.launch.language.actions import (
     StartNode,
     StartProcess,
 )
+from ros2cc_extract.extract.launch.language.command_words import words_of
 from ros2cc_extract.extract.launch.language.context import Context, Value
 from ros2cc_extract.extract.launch.language.evaluation import Evaluator
 from ros2cc_extract.extract.launch.language.substitutions import Expression
@@ -70,14 +71,13 @@ class ProcessFacts:
         if action.open_words is not None:
             open_facts.append(('command', action.open_words))
         words: list[str] = []
-        for expression in action.command:
+        for expression in self._words(action.command, action.place, open_facts):
             value = self._evaluator.value(expression)
             if isinstance(value, Unknown):
                 open_facts.append(('command', value))
                 words.append('…')
             else:
-                # A command in one text is divided at blanks, as XML and YAML files have it.
-                words.extend(value.split() if len(action.command) == 1 else [value])
+                words.append(value)
         given: tuple[SetParameter, ...] = ()
         remaps: list[Remap] = []
         if _ROS_ARGUMENTS in words:
@@ -168,13 +168,25 @@ class ProcessFacts:
         self, arguments: Sequence[Expression], place: Place, open_facts: Open
     ) -> tuple[tuple[SetParameter, ...], list[Remap]]:
         words: list[str] = []
-        for expression in arguments:
+        for expression in self._words(arguments, place, open_facts):
             value = self._evaluator.value(expression)
             if isinstance(value, Unknown):
                 open_facts.append(('arguments', value))
             else:
-                words.extend(value.split())
+                words.append(value)
         return self._ros_arguments(words, place, open_facts)
+
+    def _words(
+        self, command: Sequence[Expression], place: Place, open_facts: Open
+    ) -> Sequence[Expression]:
+        """A command in one text is divided, as XML and YAML files have it."""
+        if len(command) != 1:
+            return command
+        try:
+            return words_of(command[0])
+        except ValueError:
+            open_facts.append(('command', Unknown('a quotation in it is not closed', place)))
+            return ()
 
     def _ros_arguments(
         self, words: Sequence[str], place: Place, open_facts: Open

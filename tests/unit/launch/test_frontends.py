@@ -84,3 +84,11 @@ def test_both_forms_mean_the_same(name: str, text: str, tmp_path: Path) -> None:
 def test_what_is_no_launch_file_is_told(name: str, text: str, why: str, tmp_path: Path) -> None:
     found = followed(tmp_path, text, name)
     assert [each.message.partition(' (')[0] for each in found.noticed] == [why]
+
+
+def test_a_quotation_that_is_not_closed_is_told(tmp_path: Path) -> None:
+    text = """<launch><executable cmd="python3 'x.py"/></launch>"""
+    (launched,) = followed(tmp_path, text, 'a.launch.xml').processes
+    assert [(what, why.reason) for what, why in launched.open] == [
+        ('command', 'a quotation in it is not closed')
+    ]
