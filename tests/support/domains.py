@@ -40,9 +40,11 @@ def free_domains(count: int) -> Iterator[range]:
 def _is_held(number: int, held: ExitStack) -> bool:
     """Hold a domain if nobody else does."""
     path = Path(tempfile.gettempdir()) / f'ros2cc-test-domain-{number}.lock'
+    if not path.exists():
+        path.touch()
+    lock = held.enter_context(path.open())  # another user may have made it
     try:
-        lock = held.enter_context(path.open('w'))
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except (BlockingIOError, PermissionError):  # the second where another user has made the file
+    except BlockingIOError:
         return False
     return True
