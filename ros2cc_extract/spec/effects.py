@@ -224,6 +224,8 @@ class Access:
     :param joins: of a write, the attribute of the same object that was written before it, where
         others may run between the two.
     :param akin: both values were taken from one thing.
+    :param stored: of a write whose value is waited for, where that value ends in the text: what is
+        stored gets there only after all that stands in it.
     """
 
     name: str
@@ -247,6 +249,7 @@ class Access:
     later: bool = False
     joins: str | None = None
     akin: bool = False
+    stored: Place | None = None
     chain: tuple[Place, ...] = ()
 
 

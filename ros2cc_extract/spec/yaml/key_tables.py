@@ -146,6 +146,7 @@ ACCESS = record(
                 ('later', 'later', FLAG),
                 ('joins', 'joins', optional(TEXT)),
                 ('akin', 'akin', FLAG),
+                ('stored', 'stored', _OPTIONAL_PLACE),
                 ('locks', 'locks', listing(TEXT)),
                 _SOURCE,
                 _CHAIN,

@@ -187,6 +187,7 @@ class Effects(Waits):
             constant=is_stored and rests and isinstance(reading.stored, Const),
             joins=joins,
             akin=is_akin,
+            stored=None if is_read or is_content else reading.waited,
             chain=self.world.chain[1:],
         )
         accesses = effects.reads if is_read else effects.writes

@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import narrowed_types
+from ros2cc_extract.extract.static.python.language import properties
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -83,6 +84,11 @@ class Assignments(Machine):
         place = frame.place(target)
         options = owner.options if isinstance(owner, Choice) else (owner,)
         for option in options:
+            setters = properties.setters_of(option, name)
+            for setter in setters:
+                properties.assign(self, setter, value, place)
+            if setters:
+                continue
             old = getattr(option, 'slots', {}).get(name)
             if old is not None:
                 self.note_attribute(option, name, AccessKind.WRITE, place)

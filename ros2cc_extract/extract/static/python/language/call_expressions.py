@@ -14,8 +14,10 @@ from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops, unset_globals
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
     Call,
     Const,
+    Function,
     Mystery,
     Native,
     Value,
@@ -32,7 +34,10 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     machine.world.reading.note_use(node.func, frame.place(node.func))
     _note_choice(machine, node, frame)
     function = _called(machine, node, frame)
+    behind = machine.last_wait()
     call = arguments(machine, node, frame)
+    if isinstance(function, (Bound, Function)) and machine.last_wait() != behind:
+        call.place = frame.end_of(node)  # in the order of the text it comes after its arguments
     machine.note_call(function, node, frame)
     if isinstance(function, Mystery):
         call.text = node

@@ -1,0 +1,162 @@
+"""Properties: what is assigned through one runs code, which waits and writes as any other."""
+
+from __future__ import annotations
+
+import textwrap
+
+import pytest
+
+from ros2cc_extract.extract.static.api import scan_text
+from ros2cc_extract.findings.collect import findings_of
+from ros2cc_extract.spec.model import Callback
+
+VALVE = """
+import threading
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Bool
+
+class Valve:
+    def __init__(self):
+        self.done = threading.Event()
+        self._open, self.moves = False, 0
+
+    @property
+    def open(self):
+        return self._open
+
+    @open.setter
+    def open(self, value):
+        self._open = value
+        self.done.wait()
+
+class Counted(Valve):
+    @Valve.open.setter
+    def open(self, value):
+        self.moves += 1
+
+class ValveNode(Node):
+    def __init__(self):
+        super().__init__('valve_node')
+        self.valve = VALVE()
+        self.create_subscription(Bool, 'open', self.on_open, 10)
+        self.create_subscription(Bool, 'state', self.on_state, 10)
+
+    def on_open(self, msg):
+        STATEMENT
+
+    def on_state(self, msg):
+        self.valve.done.set()
+
+rclpy.init()
+rclpy.spin(ValveNode())
+"""
+
+
+def opening(statement: str = 'self.valve.open = msg.data', valve: str = 'Valve') -> Callback:
+    text = VALVE.replace('STATEMENT', statement).replace('VALVE', valve)
+    (unit,) = scan_text(text).units
+    return next(each for each in unit.callbacks if each.function_name == 'on_open')
+
+
+@pytest.mark.parametrize(
+    'statement',
+    ['self.valve.open = msg.data', 'self.valve.open |= msg.data', 'a = self.valve.open = True'],
+)
+def test_a_wait_behind_an_assignment_is_one_of_the_callback(statement: str) -> None:
+    callback = opening(statement)
+    assert [block.call for block in callback.blocking] == ['Event.wait']
+    assert [write.name for write in callback.writes] == ['Valve._open']
+
+
+def test_the_setter_of_a_derived_class_stands_for_that_of_the_base() -> None:
+    callback = opening(valve='Counted')
+    assert callback.blocking == ()
+    assert [write.name for write in callback.writes] == ['Counted.moves']
+
+
+def test_an_update_through_a_property_rests_on_what_was_read() -> None:
+    callback = opening('self.valve.open += 1')
+    assert [(read.name, read.rests) for read in callback.reads if '_open' in read.name]
+    assert [write.rests for write in callback.writes] == [True]
+
+
+BUDGET = """
+import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.node import Node
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+class Account:
+    def __init__(self):
+        self._left = 1000
+
+    @property
+    def left(self):
+        return self._left
+
+    @left.setter
+    def left(self, value):
+        self._left = max(0, value)
+
+class Budget(Node):
+    def __init__(self):
+        super().__init__('budget')
+        self.account = Account()
+        self.left = 1000
+        group = ReentrantCallbackGroup()
+        self.prices = self.create_client(Trigger, 'price', callback_group=group)
+        self.create_subscription(String, 'job', self.on_job, 50, callback_group=group)
+
+    async def price(self):
+        answer = await self.prices.call_async(Trigger.Request())
+        return len(answer.message)
+
+    def take(self, before, price):
+        self.left = before - price
+
+    async def on_job(self, msg):
+        STATEMENTS
+
+rclpy.init()
+rclpy.spin(Budget())
+"""
+
+
+def of_budget(statements: str) -> list[str]:
+    text = BUDGET.replace('STATEMENTS', textwrap.indent(statements, ' ' * 8).strip())
+    found = findings_of(scan_text(text).units, [], [None])
+    return [each.code for each in found if each.code.startswith('CC3')]
+
+
+@pytest.mark.parametrize(
+    'statements',
+    [
+        'self.left = self.left - await self.price()',
+        'self.left -= await self.price()',
+        'self.left = self.left - (\n    await self.price()\n)',
+        'before = self.left\nself.left = before - await self.price()',
+        'before: int = self.left\nself.left: int = before - await self.price()',
+        'self.take(self.left, await self.price())',
+        'self.account.left = self.account.left - await self.price()',
+        'self.account.left -= await self.price()',
+        'before = self.account.left\nself.account.left = before - await self.price()',
+    ],
+)
+def test_what_was_read_before_an_await_of_the_same_statement_is_old(statements: str) -> None:
+    assert of_budget(statements) == ['CC304']
+
+
+@pytest.mark.parametrize(
+    'statements',
+    [
+        'price = await self.price()\nself.left = self.left - price',
+        'price = await self.price()\nself.left -= price',
+        'price = await self.price()\nself.account.left -= price',
+        'self.left = await self.price()',
+        'self.take(self.left, 1)\nawait self.price()',
+    ],
+)
+def test_what_is_read_behind_the_await_is_new(statements: str) -> None:
+    assert of_budget(statements) == []
