@@ -224,8 +224,8 @@ class Access:
     :param joins: of a write, the attribute of the same object that was written before it, where
         others may run between the two.
     :param akin: both values were taken from one thing.
-    :param stored: of a write whose value is waited for, where that value ends in the text: what is
-        stored gets there only after all that stands in it.
+    :param turn: the way to where it comes in the order of the text, if not where it stands: what
+        is stored comes behind a wait in its value, an argument before what its call waits for.
     """
 
     name: str
@@ -249,7 +249,7 @@ class Access:
     later: bool = False
     joins: str | None = None
     akin: bool = False
-    stored: Place | None = None
+    turn: tuple[Place, ...] = ()
     chain: tuple[Place, ...] = ()
 
 

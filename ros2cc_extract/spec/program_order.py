@@ -8,6 +8,6 @@ from ros2cc_extract.spec.effects import Access, Act, Blocking
 
 def steps(effect: Access | Act | Blocking) -> tuple[Place, ...]:
     """The way to a effect; ways of one callback are ordered as its text is, loops apart."""
-    stored = effect.stored if isinstance(effect, Access) else None
-    source = stored or effect.source
-    return effect.chain if source is None else (*effect.chain, source)
+    if isinstance(effect, Access) and effect.turn:
+        return effect.turn
+    return effect.chain if effect.source is None else (*effect.chain, effect.source)

@@ -91,8 +91,8 @@ def _races_on(writes: list[Access], callback: Callback, is_shared: bool) -> Iter
 
 
 def _lost(write: Access, callback: Callback) -> SelfRace:
-    use, begun = Use(callback, write), replace(write, stored=None)
-    has_waited = write.stored is not None and waits(begun, write, callback)
+    use, begun = Use(callback, write), replace(write, turn=())
+    has_waited = waits(begun, write, callback)
     return SelfRace(SelfRaceKind.LOST_UPDATE, callback, use, has_waited, is_whole=write.whole)
 
 

@@ -146,7 +146,7 @@ ACCESS = record(
                 ('later', 'later', FLAG),
                 ('joins', 'joins', optional(TEXT)),
                 ('akin', 'akin', FLAG),
-                ('stored', 'stored', _OPTIONAL_PLACE),
+                ('turn', 'turn', _PLACES),
                 ('locks', 'locks', listing(TEXT)),
                 _SOURCE,
                 _CHAIN,

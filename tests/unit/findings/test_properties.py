@@ -113,6 +113,9 @@ class Budget(Node):
         answer = await self.prices.call_async(Trigger.Request())
         return len(answer.message)
 
+    async def less(self, left):
+        return left - await self.price()
+
     def take(self, before, price):
         self.left = before - price
 
@@ -139,6 +142,10 @@ def of_budget(statements: str) -> list[str]:
         'before = self.left\nself.left = before - await self.price()',
         'before: int = self.left\nself.left: int = before - await self.price()',
         'self.take(self.left, await self.price())',
+        'self.left = await self.less(self.left)',
+        'self.left = self.left if msg.data else await self.less(self.left)',
+        'left = await self.less(self.left)\nself.left = left',
+        'self.account.left = await self.less(self.account.left)',
         'self.account.left = self.account.left - await self.price()',
         'self.account.left -= await self.price()',
         'before = self.account.left\nself.account.left = before - await self.price()',
@@ -155,6 +162,8 @@ def test_what_was_read_before_an_await_of_the_same_statement_is_old(statements: 
         'price = await self.price()\nself.left -= price',
         'price = await self.price()\nself.account.left -= price',
         'self.left = await self.price()',
+        'self.take(await self.price(), self.left)',
+        'self.left = await self.price() + self.left',
         'self.take(self.left, 1)\nawait self.price()',
     ],
 )

@@ -148,6 +148,7 @@ class Effects(Waits):
         if effects is None:
             return
         is_read, reading = kind is AccessKind.READ, self.world.reading
+        waited = reading.waited
         is_stored = kind is AccessKind.WRITE
         if is_read:
             reading.read.add(name)
@@ -187,7 +188,7 @@ class Effects(Waits):
             constant=is_stored and rests and isinstance(reading.stored, Const),
             joins=joins,
             akin=is_akin,
-            stored=None if is_read or is_content else reading.waited,
+            turn=() if is_read or is_content or not waited else (*self.world.chain[1:], waited),
             chain=self.world.chain[1:],
         )
         accesses = effects.reads if is_read else effects.writes

@@ -10,6 +10,7 @@ from typing import Any
 from ros2cc_extract.extract.static.python.branching import conditions, narrowed_types, open_tests
 from ros2cc_extract.extract.static.python.language.call_expressions import evaluate_call
 from ros2cc_extract.extract.static.python.language.subscripts import slice_alone, subscript
+from ros2cc_extract.extract.static.python.language.order_of_text import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
@@ -326,8 +327,12 @@ def _named(machine: Expressions, node: ast.NamedExpr, frame: Frame) -> Value:
 
 
 def _await(machine: Expressions, node: ast.Await, frame: Frame) -> Value:
+    asked = Asked(machine, frame.place(node))
     value = machine.evaluate(node.value, frame)
-    return machine.await_value(value, frame.place(node))
+    asked.all_read()
+    result = machine.await_value(value, frame.place(node))
+    asked.done()
+    return result
 
 
 def _yield(machine: Expressions, node: ast.Yield, frame: Frame) -> Value:

@@ -8,8 +8,7 @@ more than one bit is set where that depends on a branch that cannot be decided.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from functools import reduce
 from operator import or_
 from typing import Any
@@ -25,6 +24,7 @@ from ros2cc_extract.extract.static.python.language.control_flow import (
     run_match,
     run_while,
 )
+from ros2cc_extract.extract.static.python.language.order_of_text import stored_after
 from ros2cc_extract.extract.static.python.language.try_blocks import run_try
 from ros2cc_extract.extract.static.python.language.with_blocks import run_with
 from ros2cc_extract.extract.static.python.machine import path_facts
@@ -180,26 +180,11 @@ def _assign_to(machine: Statements, node: ast.Assign, frame: Frame) -> int:
     _note_literal(machine, node.value, node.targets, frame)
     behind = machine.last_wait()
     value = open_tests.evaluate_copied(machine, node.value, node.targets, frame)
-    with machine.in_one_piece(node, frame), _stored_after(machine, behind, node.value, frame):
+    with machine.in_one_piece(node, frame), stored_after(machine, behind, node.value, frame):
         for target in node.targets:
             machine.assign(target, value, frame)
     machine.world.reading.flowing = frozenset()
     return NEXT
-
-
-@contextmanager
-def _stored_after(
-    machine: Statements, behind: object, value: ast.expr, frame: Frame
-) -> Iterator[None]:
-    """What is stored inside is stored where its value ends, if that was waited for."""
-    reading = machine.world.reading
-    before = reading.waited
-    has_waited = machine.last_wait() != behind
-    reading.waited = frame.end_of(value) if has_waited else None
-    try:
-        yield
-    finally:
-        reading.waited = before
 
 
 def _note_literal(
@@ -214,7 +199,7 @@ def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) ->
         _note_literal(machine, node.value, [node.target], frame)
         behind = machine.last_wait()
         value = open_tests.evaluate_copied(machine, node.value, [node.target], frame)
-        with _stored_after(machine, behind, node.value, frame):
+        with stored_after(machine, behind, node.value, frame):
             machine.assign(node.target, value, frame)
         machine.world.reading.flowing = frozenset()
     return NEXT
@@ -232,7 +217,7 @@ def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) ->
     machine.world.effects = noted
     behind = machine.last_wait()
     value = machine.evaluate(node.value, frame)
-    waited = _stored_after(machine, behind, node.value, frame)
+    waited = stored_after(machine, behind, node.value, frame)
     with machine.in_one_piece(node, frame), waited:
         machine.note_update(load, frame, AccessKind.UPDATE)
         machine.note_part(load, frame)
