@@ -169,3 +169,100 @@ def test_what_was_read_before_an_await_of_the_same_statement_is_old(statements: 
 )
 def test_what_is_read_behind_the_await_is_new(statements: str) -> None:
     assert of_budget(statements) == []
+
+
+FLEET = """
+import threading
+import rclpy
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import String
+
+class Registry:
+    def __init__(self):
+        self._peers, self._lock = {}, threading.RLock()
+
+    @property
+    def peers(self):
+        return self._peers
+
+    @property
+    def locked(self):
+        with self._lock:
+            return self._peers
+
+    def all(self):
+        'Who is known.'
+        with self._lock:
+            return self._peers
+
+    def copied(self):
+        with self._lock:
+            return dict(self._peers)
+
+    def touch(self, name):
+        with self._lock:
+            self._peers[name] = True
+
+class Watcher(Node):
+    def __init__(self):
+        super().__init__('watcher')
+        self.registry = Registry()
+        group = MutuallyExclusiveCallbackGroup
+        self.create_subscription(String, 'hello', self.on_hello, 5, callback_group=group())
+        self.create_timer(0.1, self.tick, callback_group=group())
+
+    def on_hello(self, msg):
+        self.registry.touch(msg.data)
+
+    def tick(self):
+        STATEMENTS
+
+rclpy.init()
+executor = MultiThreadedExecutor(num_threads=2)
+executor.add_node(Watcher())
+executor.spin()
+"""
+
+
+def of_fleet(statements: str) -> list[str]:
+    text = FLEET.replace('STATEMENTS', textwrap.indent(statements, ' ' * 8).strip())
+    found = findings_of(scan_text(text).units, [], [None])
+    return [each.message for each in found if each.code.startswith('CC3')]
+
+
+@pytest.mark.parametrize(
+    'statements',
+    [
+        'for name in self.registry.peers:\n    print(name)',
+        'for name, known in self.registry.peers.items():\n    print(name)',
+        'print([name for name in self.registry.locked])',
+        'for name in self.registry.all():\n    print(name)',
+        'for number, name in enumerate(self.registry.all().values()):\n    print(name)',
+    ],
+)
+def test_a_loop_over_what_a_property_or_getter_gives_is_over_what_others_change(
+    statements: str,
+) -> None:
+    (message,) = of_fleet(statements.replace('\\\n', '\n'))
+    assert 'iterates over Registry._peers' in message
+
+
+@pytest.mark.parametrize(
+    'statements',
+    [
+        'for name in list(self.registry.peers):\n    print(name)',
+        'for name in self.registry.copied():\n    print(name)',
+        'with self.registry._lock:\n    for name in self.registry.peers:\n        print(name)',
+    ],
+)
+def test_a_loop_over_a_copy_or_under_the_lock_is_not(statements: str) -> None:
+    assert of_fleet(statements.replace('\\\n', '\n')) == []
+
+
+def test_a_change_of_what_a_property_gives_is_one_of_the_attribute() -> None:
+    text = FLEET.replace('STATEMENTS', "self.registry.peers['me'] = True")
+    (unit,) = scan_text(text).units
+    (tick,) = (each for each in unit.callbacks if each.function_name == 'tick')
+    assert [(w.name, w.in_place, w.locks) for w in tick.writes] == [('Registry._peers', True, ())]

@@ -7,7 +7,7 @@ from typing import Any
 
 from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS
 from ros2cc_extract.extract.static.python.branching import narrowed_types, open_tests
-from ros2cc_extract.extract.static.python.language.order_of_text import Asked
+from ros2cc_extract.extract.static.python.branching.order_of_text import Asked
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine

@@ -8,9 +8,9 @@ from functools import partial
 from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import conditions, narrowed_types, open_tests
+from ros2cc_extract.extract.static.python.branching.order_of_text import Asked
 from ros2cc_extract.extract.static.python.language.call_expressions import evaluate_call
 from ros2cc_extract.extract.static.python.language.subscripts import slice_alone, subscript
-from ros2cc_extract.extract.static.python.language.order_of_text import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind

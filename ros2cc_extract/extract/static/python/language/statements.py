@@ -17,6 +17,7 @@ from ros2cc_extract.extract.static.program.text_queries import noted_on
 from ros2cc_extract.extract.static.python.branching import (
     open_tests,
 )
+from ros2cc_extract.extract.static.python.branching.order_of_text import stored_after
 from ros2cc_extract.extract.static.python.language import properties
 from ros2cc_extract.extract.static.python.language.control_flow import (
     run_for,
@@ -24,7 +25,6 @@ from ros2cc_extract.extract.static.python.language.control_flow import (
     run_match,
     run_while,
 )
-from ros2cc_extract.extract.static.python.language.order_of_text import stored_after
 from ros2cc_extract.extract.static.python.language.try_blocks import run_try
 from ros2cc_extract.extract.static.python.language.with_blocks import run_with
 from ros2cc_extract.extract.static.python.machine import path_facts
