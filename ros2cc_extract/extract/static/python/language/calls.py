@@ -97,6 +97,8 @@ class Calls(Machine):
         """Run the body of a scanned function with the arguments of ``call``."""
         self.charge(0)  # calls within one expression double too, and no statement looks meanwhile
         self.world.called[id(function.node)] = function
+        if self.world.effects is not None:
+            self.world.effects.begun += 1
         if len(self.stack) >= _CALL_DEPTH or self.stack.count(function) >= _SAME_FUNCTION:
             if len({*self.stack, function}) > len(self.stack):  # none calls itself
                 note_cut(self.world, call.place, _TOO_DEEP)
