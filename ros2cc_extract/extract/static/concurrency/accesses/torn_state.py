@@ -4,8 +4,8 @@ Attributes that are written one after the other, between which others may run.
 ``self.x = msg.x; self.y = msg.y``: code that runs in between finds a new one beside an old one.
 Others may run in between where the function waits there, calls one of the program, or takes the
 second from an argument: CPython may switch threads where a function begins, and the fields of a
-message are properties written in Python (``*.py`` that rosidl_generator_py makes, Jazzy). Two values are of one thing where the source
-names it in both.
+message are properties written in Python (``*.py`` that rosidl_generator_py makes, Jazzy). Two
+values are of one thing where the source names it in both.
 """
 
 from __future__ import annotations
