@@ -1,4 +1,4 @@
-"""Properties: what is assigned through one runs code, which waits and writes as any other."""
+"""Properties and operators: the code behind them waits, reads and writes as any other."""
 
 from __future__ import annotations
 
@@ -266,3 +266,54 @@ def test_a_change_of_what_a_property_gives_is_one_of_the_attribute() -> None:
     (unit,) = scan_text(text).units
     (tick,) = (each for each in unit.callbacks if each.function_name == 'tick')
     assert [(w.name, w.in_place, w.locks) for w in tick.writes] == [('Registry._peers', True, ())]
+
+
+BOX = """
+import threading
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Bool
+
+class Box:
+    def __init__(self):
+        self.gate = threading.Event()
+
+    def METHOD:
+        self.gate.wait()
+        return self
+
+class BoxNode(Node):
+    def __init__(self):
+        super().__init__('box_node')
+        self.box = Box()
+        self.create_subscription(Bool, 'go', self.on_go, 10)
+        self.create_subscription(Bool, 'set', self.on_set, 10)
+
+    def on_go(self, msg):
+        STATEMENT
+
+    def on_set(self, msg):
+        self.box.gate.set()
+
+rclpy.init()
+rclpy.spin(BoxNode())
+"""
+
+
+@pytest.mark.parametrize(
+    ('method', 'statement'),
+    [
+        ('__lshift__(self, item)', 'self.box << msg.data'),
+        ('__add__(self, item)', 'print(self.box + 1)'),
+        ('__radd__(self, item)', 'print(1 + self.box)'),
+        ('__iadd__(self, item)', 'self.box += msg.data'),
+        ('__or__(self, item)', 'self.box |= msg.data'),
+        ('__setitem__(self, key, item)', 'self.box[1] = msg.data'),
+        ('__delitem__(self, key)', 'del self.box[msg.data]'),
+    ],
+)
+def test_a_wait_behind_an_operator_is_one_of_the_callback(method: str, statement: str) -> None:
+    text = BOX.replace('METHOD', method).replace('STATEMENT', statement)
+    (unit,) = scan_text(text).units
+    (callback,) = (each for each in unit.callbacks if each.function_name == 'on_go')
+    assert [block.call for block in callback.blocking] == ['Event.wait']

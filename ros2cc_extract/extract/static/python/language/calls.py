@@ -8,7 +8,7 @@ from functools import partial
 
 from ros2cc_extract.extract.static.program.text_queries import is_test, mangled
 from ros2cc_extract.extract.static.python.language import plain_data_calls, recursive_loops
-from ros2cc_extract.extract.static.python.language.properties import with_setter
+from ros2cc_extract.extract.static.python.language.code_behind import with_setter
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError, CannotCallError, Frame
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut

@@ -18,7 +18,7 @@ from ros2cc_extract.extract.static.python.branching import (
     open_tests,
 )
 from ros2cc_extract.extract.static.python.branching.order_of_text import stored_after
-from ros2cc_extract.extract.static.python.language import properties
+from ros2cc_extract.extract.static.python.language import code_behind
 from ros2cc_extract.extract.static.python.language.control_flow import (
     run_for,
     run_if,
@@ -208,7 +208,7 @@ def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) ->
 def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) -> int:
     target = node.target
     load = ast.copy_location(_as_load(target), target)
-    if isinstance(target, ast.Attribute) and properties.is_assigned_by_call(
+    if isinstance(target, ast.Attribute) and code_behind.is_assigned_by_call(
         machine, target, frame
     ):
         return _assign(machine, noted_on(node, 'as_assignment', _as_assignment), frame)
@@ -227,8 +227,9 @@ def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) ->
         machine.store.write(old, 'items', (*old.items, *items))
         machine.store.write(old, 'open', old.others or rest)
         return NEXT
+    new = machine.operate(node.op, old, value, frame, node)
     machine.world.effects = None
-    machine.assign(target, machine.operate(node.op, old, value, frame, node), frame)
+    machine.assign(target, new, frame)
     machine.world.effects = noted
     return NEXT
 
@@ -370,8 +371,19 @@ def _delete(machine: Statements, node: ast.Delete, frame: Frame) -> int:
         if isinstance(target, ast.Name):
             machine.store.remove(frame.scope, target.id)
         elif isinstance(target, ast.Subscript):
-            machine.note_update(target, frame, AccessKind.UPDATE_IN_PLACE)
+            _delete_item(machine, target, frame)
     return NEXT
+
+
+def _delete_item(machine: Statements, target: ast.Subscript, frame: Frame) -> None:
+    noted, machine.world.effects = machine.world.effects, None
+    owner, place = machine.evaluate(target.value, frame), frame.place(target)
+    machine.world.effects = noted
+    method = code_behind.special_method(machine, owner, '__delitem__', place)
+    if method is None:
+        machine.note_update(target, frame, AccessKind.UPDATE_IN_PLACE)
+    else:
+        machine.call(method, Call(place, [machine.evaluate(target.slice, frame)]))
 
 
 def _constant_flow(flow: int) -> Callable[..., int]:

@@ -1,4 +1,4 @@
-"""Properties: functions that stand for attributes, and the functions that assign those."""
+"""Code behind plain statements: what assigns properties, and methods that stand for operators."""
 
 from __future__ import annotations
 
@@ -18,6 +18,22 @@ from ros2cc_extract.extract.static.python.values.values import (
 from ros2cc_extract.source_locations import Place
 
 _SETTER = '<setter>'
+
+_OPERATORS: dict[type[ast.operator], str] = {
+    ast.Add: 'add',
+    ast.Sub: 'sub',
+    ast.Mult: 'mul',
+    ast.MatMult: 'matmul',
+    ast.Div: 'truediv',
+    ast.FloorDiv: 'floordiv',
+    ast.Mod: 'mod',
+    ast.Pow: 'pow',
+    ast.LShift: 'lshift',
+    ast.RShift: 'rshift',
+    ast.BitAnd: 'and',
+    ast.BitOr: 'or',
+    ast.BitXor: 'xor',
+}
 
 
 def with_setter(machine: Machine, known: Value, setter: Function) -> Function | None:
@@ -61,3 +77,28 @@ def assign(machine: Machine, setter: Bound, value: Value, place: Place) -> None:
     reading.calls += 1
     machine.call(setter, call)
     reading.waited = waited
+
+
+def special_method(machine: Machine, owner: Value, name: str, place: Place) -> Bound | None:
+    """A method of a scanned class that Python calls for a statement or a built-in function."""
+    if not isinstance(owner, Instance):
+        return None
+    if not any(isinstance(cls, Class) and name in cls.slots for cls in owner.mro):
+        return None
+    method = machine.attribute(owner, name, place)
+    return method if isinstance(method, Bound) else None
+
+
+def operated(
+    machine: Machine, op: ast.operator, left: Value, right: Value, place: Place, *, augmented: bool
+) -> Value | None:
+    """``left op right``, where a method of one of them says what that is."""
+    name = _OPERATORS[type(op)]
+    ways = [(left, f'__{name}__', right), (right, f'__r{name}__', left)]
+    if augmented:
+        ways.insert(0, (left, f'__i{name}__', right))
+    for owner, called, other in ways:
+        method = special_method(machine, owner, called, place)
+        if method is not None:
+            return machine.call(method, Call(place, [other]))
+    return None
