@@ -224,6 +224,8 @@ class Access:
     :param joins: of a write, the attribute of the same object that was written before it, where
         others may run between the two.
     :param akin: both values were taken from one thing.
+    :param turn: the way to where it comes in the order of the text, if not where it stands: what
+        is stored comes behind a wait in its value, an argument before what its call waits for.
     """
 
     name: str
@@ -247,6 +249,7 @@ class Access:
     later: bool = False
     joins: str | None = None
     akin: bool = False
+    turn: tuple[Place, ...] = ()
     chain: tuple[Place, ...] = ()
 
 

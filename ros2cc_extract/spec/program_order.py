@@ -8,5 +8,6 @@ from ros2cc_extract.spec.effects import Access, Act, Blocking
 
 def steps(effect: Access | Act | Blocking) -> tuple[Place, ...]:
     """The way to a effect; ways of one callback are ordered as its text is, loops apart."""
-    source = (effect.source,) if effect.source is not None else ()
-    return (*effect.chain, *source)
+    if isinstance(effect, Access) and effect.turn:
+        return effect.turn
+    return effect.chain if effect.source is None else (*effect.chain, effect.source)

@@ -434,8 +434,14 @@ def _is_flag(conflict: _Conflict) -> bool:
     return conflict.first.access.constant and _is_of_threads(conflict.first, conflict.other)
 
 
+def _find_the_same(conflict: _Conflict) -> bool:
+    """Both act because of the same answer to a test, as two that find a place free."""
+    found = conflict.first.access.found
+    return found is not None and found == conflict.other.access.found
+
+
 def _race(name: str, conflicts: list[_Conflict]) -> Race:
-    worst = min(conflicts, key=lambda conflict: _WEIGHT[conflict.kind])
+    worst = min(conflicts, key=lambda each: (_WEIGHT[each.kind], not _find_the_same(each)))
     first = worst.first.doer.name
     shown = [each for each in conflicts if each.kind is worst.kind or worst.kind not in _OWN_HARM]
     uses = [

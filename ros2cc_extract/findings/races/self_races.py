@@ -91,8 +91,9 @@ def _races_on(writes: list[Access], callback: Callback, is_shared: bool) -> Iter
 
 
 def _lost(write: Access, callback: Callback) -> SelfRace:
-    use = Use(callback, write)
-    return SelfRace(SelfRaceKind.LOST_UPDATE, callback, use, waits=False, is_whole=write.whole)
+    use, begun = Use(callback, write), replace(write, turn=())
+    has_waited = waits(begun, write, callback)
+    return SelfRace(SelfRaceKind.LOST_UPDATE, callback, use, has_waited, is_whole=write.whole)
 
 
 def _stale(write: Access, writes: list[Access], callback: Callback) -> SelfRace | None:

@@ -146,6 +146,7 @@ ACCESS = record(
                 ('later', 'later', FLAG),
                 ('joins', 'joins', optional(TEXT)),
                 ('akin', 'akin', FLAG),
+                ('turn', 'turn', _PLACES),
                 ('locks', 'locks', listing(TEXT)),
                 _SOURCE,
                 _CHAIN,

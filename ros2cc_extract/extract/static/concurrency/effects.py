@@ -187,6 +187,7 @@ class Effects(Waits):
             constant=is_stored and rests and isinstance(reading.stored, Const),
             joins=joins,
             akin=is_akin,
+            turn=() if is_read or is_content else self._turn_of_store(),
             chain=self.world.chain[1:],
         )
         accesses = effects.reads if is_read else effects.writes
@@ -201,6 +202,10 @@ class Effects(Waits):
         if not is_read:
             self._note_written(effects, name, place)
 
+    def _turn_of_store(self) -> tuple[Place, ...]:
+        waited = self.world.reading.waited
+        return () if waited is None else (*self.world.chain[1:], waited)
+
     def _note_written(self, effects: EffectLog, name: str, place: Place) -> None:
         is_open = self.world.path != self.world.callback_path
         effects.written.setdefault((name, place), (effects.behind, is_open))
@@ -212,6 +217,8 @@ class Effects(Waits):
         if self.world.effects is None:
             return
         for target in _iterated(node):
+            if isinstance(target, ast.Call) and not self._is_getter(target, frame):
+                continue
             noted, self.world.effects = self.world.effects, None
             values = options_of(self.evaluate(target, frame))
             self.world.effects = noted
@@ -220,6 +227,13 @@ class Effects(Waits):
             if kinds:
                 self.note_update(target, frame, AccessKind.READ)
             self.world.iterating = None
+
+    def _is_getter(self, node: ast.Call, frame: Frame) -> bool:
+        """A call that does nothing but give what an attribute holds."""
+        noted, self.world.effects = self.world.effects, None
+        function = self.evaluate(node.func, frame)
+        self.world.effects = noted
+        return isinstance(function, Bound) and collection_aliases.is_getter(function.function)
 
     def note_update(self, target: ast.expr, frame: Frame, kind: AccessKind) -> None:
         """The object in a name or attribute gets a new content or value from its old one."""
@@ -230,8 +244,16 @@ class Effects(Waits):
             note_item(self, target.value, target.slice, frame)
             self.note_update(target.value, frame, kind)
         elif isinstance(target, ast.Attribute):
-            for owner in options_of(self.evaluate(target.value, frame)):
-                self.note_attribute(owner, frame.attribute_name(target.attr), kind, place)
+            of_loop, self.world.iterating = self.world.iterating, None
+            owners = options_of(self.evaluate(target.value, frame))
+            self.world.iterating, name = of_loop, frame.attribute_name(target.attr)
+            if any(collection_aliases.is_property(owner, name) for owner in owners):
+                self._note_given(target, target.attr, frame, kind)
+                return
+            for owner in owners:
+                self.note_attribute(owner, name, kind, place)
+        elif isinstance(target, ast.Call):
+            self._note_given(target, '', frame, kind)
         elif isinstance(target, ast.Name) and self._is_global(target.id, frame):
             self.note_global(frame.module, target.id, kind, place)
         elif isinstance(target, ast.Name):
@@ -239,17 +261,24 @@ class Effects(Waits):
 
     def _note_variable(self, target: ast.Name, frame: Frame, kind: AccessKind) -> None:
         """A local name stands for what an attribute holds, or is shared with inner functions."""
-        homes: list[collection_aliases.Home] = []
-        if kind in _OF_CONTENT and self.world.homes:
-            noted, self.world.effects = self.world.effects, None
-            held = self.evaluate(target, frame)
-            self.world.effects = noted
-            homes = collection_aliases.homes_of(self.world, held)
         place, owner = frame.place(target), _owner_of(target.id, frame)
-        for home in homes:
-            self._note_access(self._seen_at(home), kind, place, target.id)
-        if owner is not None and not homes:
+        is_known = self._note_given(target, target.id, frame, kind)
+        if owner is not None and not is_known:
             self.note_cell(owner, target.id, kind, place)
+
+    def _note_given(
+        self, target: ast.expr, attribute: str, frame: Frame, kind: AccessKind
+    ) -> bool:
+        """What a name, a property or a getter gives is what an attribute holds; is it known?"""
+        if kind not in _OF_CONTENT or not self.world.homes:
+            return False
+        noted, self.world.effects = self.world.effects, None
+        held = self.evaluate(target, frame)
+        self.world.effects = noted
+        homes = collection_aliases.homes_of(self.world, held)
+        for home in homes:
+            self._note_access(self._seen_at(home), kind, frame.place(target), attribute)
+        return bool(homes)
 
     def _is_global(self, name: str, frame: Frame) -> bool:
         return _owner_of(name, frame) is None and name in frame.module.slots
@@ -403,6 +432,8 @@ def _iterated(node: ast.expr) -> Iterator[ast.expr]:
         elif isinstance(function, ast.Name) and function.id in _PASSING_ON:
             for argument in node.args:
                 yield from _iterated(argument)
+        else:
+            yield node
 
 
 def _owner_of(name: str, frame: Frame) -> Scope | None:

@@ -23,6 +23,9 @@ class Follower(Node):
         self.client = self.create_client(Trigger, 'permit')
         self.create_subscription(Odometry, 'odom', self.on_odom, 10)
 
+    def scaled(self, value):
+        return 2.0 * value
+
     KINDdef on_odom(self, msg):
         STORES
 
@@ -51,6 +54,8 @@ def joins(stores: str, kind: str = '') -> list[tuple[str, str | None]]:
             'async ',
         ),
         ('if msg.header.stamp:\n    self.x = msg.pose.x\n    self.y = msg.pose.y', ''),
+        ('self.x = self.n\nself.y = self.scaled(self.n)', ''),
+        ('step = 1.0\nself.x = step\nself.y = self.scaled(step)', ''),
     ],
 )
 def test_others_may_run_between_values_of_a_message_and_over_a_wait(
@@ -66,6 +71,8 @@ def test_others_may_run_between_values_of_a_message_and_over_a_wait(
         'self.x, self.y = msg.pose.x, msg.pose.y',
         'self.x = msg.pose.x\nself.moved = True',
         'self.x = msg.pose.x\nself.y = time.time()',
+        'x, y = self.scaled(1.0), self.scaled(2.0)\nself.x = x\nself.y = y',
+        'self.x = self.scaled(self.n)\nself.y = 0.0',
         'if msg.header.stamp:\n    self.x = msg.pose.x\nelse:\n    self.y = msg.pose.y',
         'x, y = msg.pose.x, msg.pose.y\nself.x = x\nself.y = y',
     ],

@@ -7,10 +7,18 @@ changes it under the one is seen under the other.
 
 from __future__ import annotations
 
+import ast
+
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
-from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes
+from ros2cc_extract.extract.static.program.text_queries import noted_on, reassigned_attributes
 from ros2cc_extract.extract.static.python.values.containers import Collection
-from ros2cc_extract.extract.static.python.values.values import Class, Instance, Value, options_of
+from ros2cc_extract.extract.static.python.values.values import (
+    Class,
+    Function,
+    Instance,
+    Value,
+    options_of,
+)
 
 Home = tuple[Instance, str]
 _FIXED = ('tuple', 'frozenset')
@@ -54,3 +62,32 @@ def is_reassigned(owner: Instance, attribute: str) -> bool:
         isinstance(cls, Class) and attribute in reassigned_attributes(cls.node)
         for cls in owner.mro
     )
+
+
+def is_property(owner: Value, name: str) -> bool:
+    """Whether code of the class gives the attribute."""
+    if not isinstance(owner, Instance) or name in owner.slots:
+        return False
+    classes = (cls for cls in owner.mro if isinstance(cls, Class) and name in cls.slots)
+    held = next((cls.slots[name] for cls in classes), None)
+    return isinstance(held, Function) and held.binding == 'property'
+
+
+def is_getter(function: Function) -> bool:
+    """Whether it only gives what an attribute holds, perhaps under a lock."""
+    return noted_on(function.node, 'is_getter', _only_gives)
+
+
+def _only_gives(node: ast.AST) -> bool:
+    body = node.body if isinstance(node, (ast.FunctionDef, ast.With)) else []
+    stated = [each for each in body if not _is_text(each)]
+    if len(stated) != 1:
+        return False
+    (only,) = stated
+    if isinstance(only, ast.Return):
+        return isinstance(only.value, ast.Attribute)
+    return isinstance(only, ast.With) and _only_gives(only)
+
+
+def _is_text(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)

@@ -2,10 +2,10 @@
 Attributes that are written one after the other, between which others may run.
 
 ``self.x = msg.x; self.y = msg.y``: code that runs in between finds a new one beside an old one.
-Others may run in between where the function waits there, or takes the second from an argument:
-CPython may switch threads then, as the fields of a message are properties written in Python
-(``*.py`` that rosidl_generator_py makes, Jazzy). Two values are of one thing where the source
-names it in both.
+Others may run in between where the function waits there, calls one of the program, or takes the
+second from an argument: CPython may switch threads where a function begins, and the fields of a
+message are properties written in Python (``*.py`` that rosidl_generator_py makes, Jazzy). Two
+values are of one thing where the source names it in both.
 """
 
 from __future__ import annotations
@@ -60,13 +60,23 @@ def _taken_from(value: ast.expr, frame: Frame) -> frozenset[str]:
 def written_with(world: ConcurrentWorld, name: str, is_stored: bool) -> tuple[str | None, bool]:
     """The attribute that was written before ``name``, and whether both are of one thing."""
     effects, reading = world.effects, world.reading
-    if effects is None or not is_stored or isinstance(reading.stored, Const):
-        return None, False  # as a flag: who finds it up finds what was stored before
+    if effects is None or not is_stored or _is_flag(reading):
+        return None, False  # who finds it up finds what was stored before
     whose = name.rpartition('.')[0], world.chain
     before = effects.stored_last.get(whose)
-    now = Stored(name, world.path, effects.behind, reading.taken_from, reading.named)
+    now = Stored(
+        name, world.path, effects.behind, reading.taken_from, reading.named, effects.begun
+    )
     effects.stored_last[whose] = now
     if before is None or before.name == name or before.path != now.path:
         return None, False
-    is_parted = before.behind != now.behind or not before.taken_from.isdisjoint(now.taken_from)
+    is_parted = (before.behind, before.begun) != (now.behind, now.begun)
+    is_parted = is_parted or not before.taken_from.isdisjoint(now.taken_from)
     return (before.name, not before.named.isdisjoint(now.named)) if is_parted else (None, False)
+
+
+def _is_flag(reading: Reading) -> bool:
+    """A constant is stored, and no name stands for a measure that is known by chance."""
+    stored = reading.stored
+    is_measure = isinstance(stored, Const) and isinstance(stored.value, float)
+    return isinstance(stored, Const) and not (is_measure and reading.named)

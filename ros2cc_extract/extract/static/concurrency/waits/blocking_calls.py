@@ -55,6 +55,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Const,
     Coroutine,
     Instance,
+    Library,
     Mystery,
     Value,
     choice,
@@ -301,6 +302,8 @@ class Waits(ConcurrentMachine):
             activity.wakes.append((thing, word, place, item))  # it may be followed once more
             return
         for option in options_of(thing):
+            if is_in_process(activity) and is_of_one_process(option):
+                continue
             if world.effects is not None:
                 world.effects.woken.setdefault(id(option), len(world.effects.blocking))
             wakings = world.wakings.setdefault(id(option), [])
@@ -358,6 +361,23 @@ def _topic(name: Value | None, place: Place) -> TopicRef | Unknown:
 
 def is_main(activity: ActivityState | None) -> bool:
     return activity is not None and activity.kind is ActivityKind.MAIN
+
+
+def is_in_process(activity: object) -> bool:
+    """Whether it is a process of its own, or started in one, and so has a memory of its own."""
+    while isinstance(activity, ActivityState):
+        if activity.kind is ActivityKind.PROCESS:
+            return True
+        activity = activity.starts[0].by if activity.starts else None
+    return False
+
+
+def is_of_one_process(thing: Value) -> bool:
+    """An event, a lock, a queue … that each process has one of its own of."""
+    if not isinstance(thing, Instance) or not isinstance(thing.state, PlainState):
+        return False
+    cls = next((cls for cls in thing.mro if isinstance(cls, Library)), None)
+    return cls is not None and cls.name.startswith(('threading.', 'queue.'))
 
 
 def _one_object(on: Value | None, place: Place) -> tuple[Instance | None, Unknown | None]:

@@ -391,6 +391,17 @@ _THREAD = LibraryClass(
     methods={'start': _start, 'join': _join, 'is_alive': _is_alive, 'setDaemon': _set_daemon},
 )
 
+_PRIMITIVES = {
+    'Lock': LibraryClass(state=_lock_state, init=_lock_init, methods=_PLAIN_METHODS['lock']),
+    'RLock': _plain('rlock'),
+    'Condition': _plain('condition'),
+    'Semaphore': _plain('semaphore'),
+    'BoundedSemaphore': _plain('semaphore'),
+    'Event': _plain('event'),
+    'Barrier': _plain('barrier'),
+}
+"""Those of ``multiprocessing`` are used in the same way, and by other processes too."""
+
 _JOIN_PROCESS = _blocking('Process.join', 0, 'timeout')
 
 TABLE = Library(
@@ -408,18 +419,16 @@ TABLE = Library(
             is_beside=True,
             methods={'start': _start, 'join': _JOIN_PROCESS, 'is_alive': _is_alive},
         ),
-        'threading.Lock': LibraryClass(
-            state=_lock_state, init=_lock_init, methods=_PLAIN_METHODS['lock']
-        ),
-        'threading.RLock': _plain('rlock'),
-        'threading.Condition': _plain('condition'),
-        'threading.Semaphore': _plain('semaphore'),
-        'threading.BoundedSemaphore': _plain('semaphore'),
-        'threading.Event': _plain('event'),
-        'threading.Barrier': _plain('barrier'),
+        **{
+            f'{module}.{name}': made
+            for module in ('threading', 'multiprocessing')
+            for name, made in _PRIMITIVES.items()
+        },
     },
     functions={
         'time.sleep': _sleep,
         '_thread.start_new_thread': _start_new,
+        # A context has all that the module has (``multiprocessing/context.py``).
+        'multiprocessing.get_context': lambda machine, _, call: machine.library('multiprocessing'),
     },
 )

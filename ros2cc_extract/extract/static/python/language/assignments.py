@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import narrowed_types
+from ros2cc_extract.extract.static.python.language import code_behind
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -20,6 +21,7 @@ from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.containers import Sequence as Items
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
+    Call,
     Choice,
     Function,
     Instance,
@@ -83,6 +85,11 @@ class Assignments(Machine):
         place = frame.place(target)
         options = owner.options if isinstance(owner, Choice) else (owner,)
         for option in options:
+            setters = code_behind.setters_of(option, name)
+            for setter in setters:
+                code_behind.assign(self, setter, value, place)
+            if setters:
+                continue
             old = getattr(option, 'slots', {}).get(name)
             if old is not None:
                 self.note_attribute(option, name, AccessKind.WRITE, place)
@@ -115,6 +122,10 @@ class Assignments(Machine):
         owner = self.evaluate(target.value, frame)
         key = self.evaluate(target.slice, frame)
         note_kept(self.world, value, frame.place(target))
+        method = code_behind.special_method(self, owner, '__setitem__', frame.place(target))
+        if method is not None:
+            self.call(method, Call(frame.place(target), [key, value]))
+            return
         self.world.refilling = loops.has_key(owner, key)
         self.note_update(target.value, frame, AccessKind.UPDATE_IN_PLACE)
         self.world.refilling = False

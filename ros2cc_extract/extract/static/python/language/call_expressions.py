@@ -7,6 +7,7 @@ from typing import Any
 
 from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS
 from ros2cc_extract.extract.static.python.branching import narrowed_types, open_tests
+from ros2cc_extract.extract.static.python.branching.order_of_text import Asked
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -14,8 +15,10 @@ from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops, unset_globals
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
     Call,
     Const,
+    Function,
     Mystery,
     Native,
     Value,
@@ -32,7 +35,11 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     machine.world.reading.note_use(node.func, frame.place(node.func))
     _note_choice(machine, node, frame)
     function = _called(machine, node, frame)
+    asked = Asked(machine, frame.place(node))
     call = arguments(machine, node, frame)
+    asked.all_read()
+    if isinstance(function, (Bound, Function)) and asked.has_waited():
+        call.place = frame.end_of(node)  # in the order of the text it comes after its arguments
     machine.note_call(function, node, frame)
     if isinstance(function, Mystery):
         call.text = node
@@ -42,6 +49,7 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
         return machine.mystery(f'{function.name}()', call.place)
     machine.world.reading.calls += 1
     result = machine.call(function, call)
+    asked.done()
     if isinstance(function, Native) and function.name == 'builtins.isinstance':
         return narrowed_types.answer_of(machine, node, function, call, result, frame)
     return result

@@ -8,6 +8,7 @@ from functools import partial
 
 from ros2cc_extract.extract.static.program.text_queries import is_test, mangled
 from ros2cc_extract.extract.static.python.language import plain_data_calls, recursive_loops
+from ros2cc_extract.extract.static.python.language.code_behind import with_setter
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError, CannotCallError, Frame
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
@@ -96,6 +97,8 @@ class Calls(Machine):
         """Run the body of a scanned function with the arguments of ``call``."""
         self.charge(0)  # calls within one expression double too, and no statement looks meanwhile
         self.world.called[id(function.node)] = function
+        if self.world.effects is not None:
+            self.world.effects.begun += 1
         if len(self.stack) >= _CALL_DEPTH or self.stack.count(function) >= _SAME_FUNCTION:
             if len({*self.stack, function}) > len(self.stack):  # none calls itself
                 note_cut(self.world, call.place, _TOO_DEEP)
@@ -274,9 +277,7 @@ class Calls(Machine):
                 value.binding = binding
                 continue
             if isinstance(decorator, ast.Attribute) and decorator.attr in ('setter', 'deleter'):
-                self.store.write(function, 'accessor', Const(decorator.attr))
-                old = frame.scope.slots.get(node.name)
-                return old if isinstance(old, Value) else value
+                return self._with_accessor(function, decorator, frame)
             wrapper = self.evaluate(decorator, frame)
             self.world.decorated.append(function)
             if isinstance(wrapper, (Function, Bound, Partial, Class, Native)):
@@ -286,6 +287,13 @@ class Calls(Machine):
                 memoization.doubt(self.world, function, 'is decorated by', decorator)
                 self._keep_handler(function, decorator, frame)
         return value
+
+    def _with_accessor(self, function: Function, decorator: ast.Attribute, frame: Frame) -> Value:
+        """``@name.setter``: the property of that name, with what assigns it."""
+        known = self.evaluate(decorator.value, frame)
+        made = with_setter(self, known, function) if decorator.attr == 'setter' else None
+        old = made or frame.scope.slots.get(function.name)
+        return old if isinstance(old, Value) else function
 
     def _keep_handler(self, function: Function, decorator: ast.expr, frame: Frame) -> None:
         """Code that is not scanned has the function now, as a web server has its handlers."""

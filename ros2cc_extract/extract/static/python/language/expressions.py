@@ -8,7 +8,9 @@ from functools import partial
 from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import conditions, narrowed_types, open_tests
+from ros2cc_extract.extract.static.python.branching.order_of_text import Asked
 from ros2cc_extract.extract.static.python.language.call_expressions import evaluate_call
+from ros2cc_extract.extract.static.python.language.code_behind import operated
 from ros2cc_extract.extract.static.python.language.subscripts import slice_alone, subscript
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -125,6 +127,12 @@ class Expressions(Machine):
             return Sequence((*left.items, *right.items), left.kind, rest, many)
         if isinstance(left, Sequence) and isinstance(op, ast.Mult):
             return _repeated(self, left, right, frame.place(node))
+        if isinstance(left, Instance) or isinstance(right, Instance):
+            is_augmented = isinstance(node, ast.AugAssign)
+            place = frame.place(node)
+            given = operated(self, op, left, right, place, augmented=is_augmented)
+            if given is not None:
+                return given
         folded = constant_folding.binary(op, left, right)
         if folded is not None:
             return folded
@@ -326,8 +334,12 @@ def _named(machine: Expressions, node: ast.NamedExpr, frame: Frame) -> Value:
 
 
 def _await(machine: Expressions, node: ast.Await, frame: Frame) -> Value:
+    asked = Asked(machine, frame.place(node))
     value = machine.evaluate(node.value, frame)
-    return machine.await_value(value, frame.place(node))
+    asked.all_read()
+    result = machine.await_value(value, frame.place(node))
+    asked.done()
+    return result
 
 
 def _yield(machine: Expressions, node: ast.Yield, frame: Frame) -> Value:

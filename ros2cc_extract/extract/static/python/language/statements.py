@@ -13,9 +13,12 @@ from functools import reduce
 from operator import or_
 from typing import Any
 
+from ros2cc_extract.extract.static.program.text_queries import noted_on
 from ros2cc_extract.extract.static.python.branching import (
     open_tests,
 )
+from ros2cc_extract.extract.static.python.branching.order_of_text import stored_after
+from ros2cc_extract.extract.static.python.language import code_behind
 from ros2cc_extract.extract.static.python.language.control_flow import (
     run_for,
     run_if,
@@ -175,8 +178,9 @@ def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
 
 def _assign_to(machine: Statements, node: ast.Assign, frame: Frame) -> int:
     _note_literal(machine, node.value, node.targets, frame)
+    behind = machine.last_wait()
     value = open_tests.evaluate_copied(machine, node.value, node.targets, frame)
-    with machine.in_one_piece(node, frame):
+    with machine.in_one_piece(node, frame), stored_after(machine, behind, node.value, frame):
         for target in node.targets:
             machine.assign(target, value, frame)
     machine.world.reading.flowing = frozenset()
@@ -193,8 +197,10 @@ def _note_literal(
 def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) -> int:
     if node.value is not None:
         _note_literal(machine, node.value, [node.target], frame)
+        behind = machine.last_wait()
         value = open_tests.evaluate_copied(machine, node.value, [node.target], frame)
-        machine.assign(node.target, value, frame)
+        with stored_after(machine, behind, node.value, frame):
+            machine.assign(node.target, value, frame)
         machine.world.reading.flowing = frozenset()
     return NEXT
 
@@ -202,23 +208,37 @@ def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) ->
 def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) -> int:
     target = node.target
     load = ast.copy_location(_as_load(target), target)
+    if isinstance(target, ast.Attribute) and code_behind.is_assigned_by_call(
+        machine, target, frame
+    ):
+        return _assign(machine, noted_on(node, 'as_assignment', _as_assignment), frame)
     noted, machine.world.effects = machine.world.effects, None
     old = machine.evaluate(load, frame)
     machine.world.effects = noted
-    with machine.in_one_piece(node, frame):
+    behind = machine.last_wait()
+    value = machine.evaluate(node.value, frame)
+    waited = stored_after(machine, behind, node.value, frame)
+    with machine.in_one_piece(node, frame), waited:
         machine.note_update(load, frame, AccessKind.UPDATE)
         machine.note_part(load, frame)
     if isinstance(old, Items) and old.kind == 'list' and isinstance(node.op, ast.Add):
-        items, rest = machine.items_of(machine.evaluate(node.value, frame), frame.place(node))
+        items, rest = machine.items_of(value, frame.place(node))
         machine.charge(len(items))
         machine.store.write(old, 'items', (*old.items, *items))
         machine.store.write(old, 'open', old.others or rest)
         return NEXT
-    value = machine.evaluate(node.value, frame)
+    new = machine.operate(node.op, old, value, frame, node)
     machine.world.effects = None
-    machine.assign(target, machine.operate(node.op, old, value, frame, node), frame)
+    machine.assign(target, new, frame)
     machine.world.effects = noted
     return NEXT
+
+
+def _as_assignment(node: ast.AugAssign) -> ast.Assign:
+    """``x.level += 1`` where code stands behind ``x.level``: that is asked, and then called."""
+    old = ast.copy_location(_as_load(node.target), node.target)
+    new = ast.copy_location(ast.BinOp(old, node.op, node.value), node.value)
+    return ast.copy_location(ast.Assign([node.target], new), node)
 
 
 def _as_load(target: ast.Name | ast.Attribute | ast.Subscript) -> ast.expr:
@@ -351,8 +371,19 @@ def _delete(machine: Statements, node: ast.Delete, frame: Frame) -> int:
         if isinstance(target, ast.Name):
             machine.store.remove(frame.scope, target.id)
         elif isinstance(target, ast.Subscript):
-            machine.note_update(target, frame, AccessKind.UPDATE_IN_PLACE)
+            _delete_item(machine, target, frame)
     return NEXT
+
+
+def _delete_item(machine: Statements, target: ast.Subscript, frame: Frame) -> None:
+    noted, machine.world.effects = machine.world.effects, None
+    owner, place = machine.evaluate(target.value, frame), frame.place(target)
+    machine.world.effects = noted
+    method = code_behind.special_method(machine, owner, '__delitem__', place)
+    if method is None:
+        machine.note_update(target, frame, AccessKind.UPDATE_IN_PLACE)
+    else:
+        machine.call(method, Call(place, [machine.evaluate(target.slice, frame)]))
 
 
 def _constant_flow(flow: int) -> Callable[..., int]:

@@ -82,6 +82,11 @@ class Frame:
             known = notes['place'] = Place(self.scope.module.file, line, column)
         return known
 
+    def end_of(self, node: ast.expr) -> Place:
+        """Where ``node`` ends."""
+        line, column = node.end_lineno or node.lineno, node.end_col_offset or node.col_offset
+        return Place(self.scope.module.file, line, column)
+
     def attribute_name(self, name: str) -> str:
         """The attribute that ``name`` means in the text that is running."""
         return mangled(name, self._class_name()) if name.startswith('__') else name

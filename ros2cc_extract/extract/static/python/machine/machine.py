@@ -56,6 +56,10 @@ class Machine(Observer, LibraryHooks, ABC):
     deadline: Deadline | None
     stack: list[Function]
 
+    def last_wait(self) -> object:
+        """The last wait that lies behind what is followed now."""
+        return self.world.effects.behind if self.world.effects is not None else None
+
     def charge(self, steps: int) -> None:
         """
         Count so many steps of what is followed.

@@ -37,6 +37,7 @@ class Stored:
     :param behind: the last wait that lay behind it.
     :param taken_from: arguments of the function that the value was taken from.
     :param named: what the source names in the value.
+    :param begun: how many functions of the program had begun by then.
     """
 
     name: str
@@ -44,6 +45,7 @@ class Stored:
     behind: object
     taken_from: frozenset[str]
     named: frozenset[str]
+    begun: int
 
 
 @dataclass
@@ -77,6 +79,7 @@ class EffectLog:
     :param pieces: what is changed piece by piece, or published as a whole.
     :param looped: the waits in a loop with an unknown number of rounds.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
+    :param begun: how many functions of the program have begun.
     :param stored_last: what was stored last in an object, by its name and the way there.
     :param resting: loops that await something in each round.
     :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
@@ -97,6 +100,7 @@ class EffectLog:
     looped: set[object] = field(default_factory=set)
     written: dict[object, tuple[object, bool]] = field(default_factory=dict)
     stored_last: dict[object, Stored] = field(default_factory=dict)
+    begun: int = 0
     resting: set[Place | None] = field(default_factory=set)
     steps: dict[Place | None, Any] = field(default_factory=dict)
     unread: dict[object, tuple[Place, str]] = field(default_factory=dict)

@@ -15,11 +15,13 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     MessageRef,
     TopicRef,
 )
+from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import is_in_process
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
+from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import Value
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_off_its_loop
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
@@ -74,10 +76,12 @@ class DataWriters:
     def _writes(self, on: DataRef) -> Iterator[tuple[Doer, Access]]:
         """What writes the data a loop waits for, except what its own callback did before."""
         for doer in self._doers:
+            is_apart = is_in_process(doer)
             effects = doer.effects or EffectLog()
             parts = (piece.access for piece in effects.pieces if piece.part)
             for access in (*effects.writes, *parts):
                 is_meant = access.name in on.names and not _is_before(access, on)
+                is_meant = is_meant and not (is_apart and _is_of_one_process(access, on))
                 if is_meant and not self._leaves_as_is(access, on):
                     yield doer, access
 
@@ -219,3 +223,11 @@ def _bring_parts(writes: Sequence[tuple[Doer, Access]]) -> bool:
     """Whether several doers each put in what is theirs."""
     by = {id(doer) for doer, access in writes if access.in_place}
     return len(by) > 1 and all(access.in_place for _, access in writes)
+
+
+def _is_of_one_process(access: Access, on: DataRef) -> bool:
+    """Whether a process writes what no other one sees; others may share what is not known."""
+    name = access.name.rpartition('.')[2]
+    held = [owner.slots.get(attribute) for owner, attribute in on.holders if attribute == name]
+    is_known = bool(held) and all(isinstance(value, Collection) for value in held)
+    return is_known or not access.in_place

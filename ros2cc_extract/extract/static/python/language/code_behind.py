@@ -1,0 +1,104 @@
+"""Code behind plain statements: what assigns properties, and methods that stand for operators."""
+
+from __future__ import annotations
+
+import ast
+
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
+    Call,
+    Class,
+    Function,
+    Instance,
+    Value,
+    options_of,
+)
+from ros2cc_extract.source_locations import Place
+
+_SETTER = '<setter>'
+
+_OPERATORS: dict[type[ast.operator], str] = {
+    ast.Add: 'add',
+    ast.Sub: 'sub',
+    ast.Mult: 'mul',
+    ast.MatMult: 'matmul',
+    ast.Div: 'truediv',
+    ast.FloorDiv: 'floordiv',
+    ast.Mod: 'mod',
+    ast.Pow: 'pow',
+    ast.LShift: 'lshift',
+    ast.RShift: 'rshift',
+    ast.BitAnd: 'and',
+    ast.BitOr: 'or',
+    ast.BitXor: 'xor',
+}
+
+
+def with_setter(machine: Machine, known: Value, setter: Function) -> Function | None:
+    """``@known.setter``: a property like ``known`` that is assigned by calling ``setter``."""
+    if not isinstance(known, Function) or known.binding != 'property':
+        return None
+    made = Function(known.node, known.module, known.qualname, known.scope)
+    made.owner, made.binding = known.owner, known.binding
+    machine.store.write(made, _SETTER, setter)
+    return made
+
+
+def setters_of(owner: Value, name: str) -> list[Bound]:
+    """What ``owner.name = …`` calls instead of storing anything."""
+    if not isinstance(owner, Instance):
+        return []
+    for cls in owner.mro:
+        if isinstance(cls, Class) and name in cls.slots:
+            known = cls.slots[name]
+            setter = known.slots.get(_SETTER) if isinstance(known, Function) else None
+            return [Bound(owner, setter)] if isinstance(setter, Function) else []
+    return []
+
+
+def is_assigned_by_call(machine: Machine, target: ast.Attribute, frame: Frame) -> bool:
+    """Whether ``target = …`` may call a setter."""
+    noted, machine.world.effects = machine.world.effects, None
+    owner = machine.evaluate(target.value, frame)
+    machine.world.effects = noted
+    name = frame.attribute_name(target.attr)
+    return any(setters_of(option, name) for option in options_of(owner))
+
+
+def assign(machine: Machine, setter: Bound, value: Value, place: Place) -> None:
+    """``owner.name = value`` runs the code behind it, which knows what ``value`` rests on."""
+    reading = machine.world.reading
+    waited, reading.waited = reading.waited, None
+    call = Call(waited or place, [value])
+    if reading.flowing:
+        call.sources[0] = reading.flowing
+    reading.calls += 1
+    machine.call(setter, call)
+    reading.waited = waited
+
+
+def special_method(machine: Machine, owner: Value, name: str, place: Place) -> Bound | None:
+    """A method of a scanned class that Python calls for a statement or a built-in function."""
+    if not isinstance(owner, Instance):
+        return None
+    if not any(isinstance(cls, Class) and name in cls.slots for cls in owner.mro):
+        return None
+    method = machine.attribute(owner, name, place)
+    return method if isinstance(method, Bound) else None
+
+
+def operated(
+    machine: Machine, op: ast.operator, left: Value, right: Value, place: Place, *, augmented: bool
+) -> Value | None:
+    """``left op right``, where a method of one of them says what that is."""
+    name = _OPERATORS[type(op)]
+    ways = [(left, f'__{name}__', right), (right, f'__r{name}__', left)]
+    if augmented:
+        ways.insert(0, (left, f'__i{name}__', right))
+    for owner, called, other in ways:
+        method = special_method(machine, owner, called, place)
+        if method is not None:
+            return machine.call(method, Call(place, [other]))
+    return None
