@@ -60,7 +60,7 @@ if __name__ == '__main__':
 #     blocks time.sleep 0.5 s @26>29
 #   timer left_early in a_default every 1
 #     blocks time.sleep 0.02 s @33
-#     blocks time.sleep conditional 0.02 s @33
+#     blocks time.sleep conditional 0.02 s 2 times @33
 #   timer unknown in a_default every 1
 #     blocks time.sleep 0.1 s @39
 #     blocks time.sleep 0.2 s @39

@@ -310,6 +310,11 @@ rclpy.spin(BoxNode())
         ('__or__(self, item)', 'self.box |= msg.data'),
         ('__setitem__(self, key, item)', 'self.box[1] = msg.data'),
         ('__delitem__(self, key)', 'del self.box[msg.data]'),
+        ('__contains__(self, key)', 'print(msg.data in self.box)'),
+        ('__contains__(self, key)', 'if msg.data not in self.box:\n            print(1)'),
+        ('__eq__(self, other)', 'print(self.box == msg.data)'),
+        ('__lt__(self, other)', 'print(self.box < msg.data)'),
+        ('__len__(self)', 'print(len(self.box))'),
     ],
 )
 def test_a_wait_behind_an_operator_is_one_of_the_callback(method: str, statement: str) -> None:

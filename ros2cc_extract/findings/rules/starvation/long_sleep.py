@@ -238,7 +238,8 @@ def _missing(wait: Wait, others: Sequence[Callback]) -> Iterator[Remark]:
 def _how_long(wait: AnyWait) -> str:
     seconds = wait.block.seconds
     assert isinstance(seconds, (int, float))
-    often = f' {wait.block.times} times' if wait.block.times > 1 else ''
+    most = ' up to' if wait.block.conditional else ''
+    often = f'{most} {wait.block.times} times' if wait.block.times > 1 else ''
     if _is_sleep(wait):
         return f'sleeps {seconds:g} s{often}'
     return f'waits up to {seconds:g} s{often} in {wait.block.call}'
@@ -277,8 +278,9 @@ RULE = Rule(
     'arrives. So does a sleep by a `Rate`. It is only a note where a timer misses five runs '
     'but something may end the wait sooner, and where only the services that rclpy itself '
     'creates wait: they are rarely called, and go on afterwards. Iterations of a loop are '
-    'counted where their number is known, and short sleeps are added up where no branch skips '
-    'them. Each callback has one finding, at its longest sleep.',
+    'counted where their number is known, as the most where the loop may be left before, and '
+    'short sleeps are added up where no branch skips them. Each callback has one finding, at its '
+    'longest sleep.',
     why='A callback that holds a lock blocks all others that take it for that long, in any group '
     'and on any number of threads; a loop of unknown length counts from 0.1 s for each '
     'iteration. Every node has six parameter services and a type-description service in its '

@@ -110,7 +110,8 @@ class Waits(ConcurrentMachine):
         effects.behind = way_of(block)
         if world.open_loops:
             effects.looped.add(way_of(block))
-        _note_round(effects, block, world.round)
+        sure = tuple(number for number in world.round if number > 0)
+        _note_round(effects, block, world.round if name in _PAUSES else sure)
 
     def _block(
         self, name: str, on: Value | None, seconds: Value | None, place: Place
@@ -402,6 +403,10 @@ def _initial(thing: Instance, row: WaitRow) -> int | None:
 def _number(value: object) -> int | None:
     number = value.value if isinstance(value, Const) else None
     return number if isinstance(number, int) else None
+
+
+_PAUSES = frozenset({'time.sleep', 'Clock.sleep_for', 'Clock.sleep_until'})
+"""What holds its thread longer where a loop may go round more often."""
 
 
 def _is_of_entity(thing: Instance) -> bool:

@@ -13,12 +13,14 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
 from ros2cc_extract.extract.static.python.values.values import (
+    Call,
     Const,
     Mystery,
     Value,
     choice,
     options_of,
 )
+from ros2cc_extract.source_locations import Place
 
 
 def if_expression(machine: Machine, node: ast.IfExp, frame: Frame) -> Value:
@@ -114,7 +116,8 @@ def compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
     verdict: bool | None = True
     for operator, right_node in zip(node.ops, node.comparators, strict=True):
         right = machine.evaluate(right_node, frame)
-        holds = constant_folding.compare(operator, left, right)
+        is_open = _is_answered_by_code(machine, operator, left, right, frame.place(node))
+        holds = None if is_open else constant_folding.compare(operator, left, right)
         verdict = False if holds is False else (verdict if holds else None)
         if verdict is False:
             break
@@ -128,6 +131,31 @@ def compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
         act = partial(_compared, node.ops[0])
         return _open_condition(machine, [first, right], act, node, frame)
     return Const(verdict)
+
+
+def _is_answered_by_code(
+    machine: Machine, operator: ast.cmpop, left: Value, right: Value, place: Place
+) -> bool:
+    """Whether a method of one of them decides, whose effects are noted; its answer stays open."""
+    is_of_items = isinstance(operator, (ast.In, ast.NotIn))
+    owner, other = (right, left) if is_of_items else (left, right)
+    name = _COMPARISONS.get(type(operator))
+    method = machine.special_method(owner, name, place) if name is not None else None
+    if method is not None:
+        machine.call(method, Call(place, [other]))
+    return method is not None
+
+
+_COMPARISONS: dict[type[ast.cmpop], str] = {
+    ast.In: '__contains__',
+    ast.NotIn: '__contains__',
+    ast.Eq: '__eq__',
+    ast.NotEq: '__eq__',
+    ast.Lt: '__lt__',
+    ast.LtE: '__le__',
+    ast.Gt: '__gt__',
+    ast.GtE: '__ge__',
+}
 
 
 def _compared(operator: ast.cmpop, left: Value, right: Value) -> Value | None:

@@ -160,6 +160,9 @@ def _len(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _length(machine: Machine, call: Call) -> Value:
     value = call.args[0] if call.args else NONE
+    method = machine.special_method(value, '__len__', call.place)
+    if method is not None:
+        return machine.call(method, Call(call.place))
     if isinstance(value, Mystery) and isinstance(value.default, Sequence):
         return Mystery(value.unknown, f'len({value.text})', _of_defaults(_len, machine, call))
     if isinstance(value, Collection) and loops.may_be_filled(machine, value):

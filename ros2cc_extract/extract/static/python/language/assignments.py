@@ -122,7 +122,7 @@ class Assignments(Machine):
         owner = self.evaluate(target.value, frame)
         key = self.evaluate(target.slice, frame)
         note_kept(self.world, value, frame.place(target))
-        method = code_behind.special_method(self, owner, '__setitem__', frame.place(target))
+        method = self.special_method(owner, '__setitem__', frame.place(target))
         if method is not None:
             self.call(method, Call(frame.place(target), [key, value]))
             return

@@ -76,6 +76,13 @@ class Attributes(Machine):
             return None
         return False
 
+    def special_method(self, owner: Value, name: str, place: Place) -> Bound | None:
+        """A method of a scanned class that Python calls for a statement or built-in function."""
+        if not isinstance(owner, Instance) or not any(_defines(cls, name) for cls in owner.mro):
+            return None
+        method = self._in_order(owner.mro, owner, name, place)
+        return method if isinstance(method, Bound) else None
+
     def _find(
         self, value: Value, name: str, place: Place, text: str | ast.expr = ''
     ) -> Value | None:

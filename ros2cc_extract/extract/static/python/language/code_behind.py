@@ -79,16 +79,6 @@ def assign(machine: Machine, setter: Bound, value: Value, place: Place) -> None:
     reading.waited = waited
 
 
-def special_method(machine: Machine, owner: Value, name: str, place: Place) -> Bound | None:
-    """A method of a scanned class that Python calls for a statement or a built-in function."""
-    if not isinstance(owner, Instance):
-        return None
-    if not any(isinstance(cls, Class) and name in cls.slots for cls in owner.mro):
-        return None
-    method = machine.attribute(owner, name, place)
-    return method if isinstance(method, Bound) else None
-
-
 def operated(
     machine: Machine, op: ast.operator, left: Value, right: Value, place: Place, *, augmented: bool
 ) -> Value | None:
@@ -98,7 +88,7 @@ def operated(
     if augmented:
         ways.insert(0, (left, f'__i{name}__', right))
     for owner, called, other in ways:
-        method = special_method(machine, owner, called, place)
+        method = machine.special_method(owner, called, place)
         if method is not None:
             return machine.call(method, Call(place, [other]))
     return None

@@ -379,7 +379,7 @@ def _delete_item(machine: Statements, target: ast.Subscript, frame: Frame) -> No
     noted, machine.world.effects = machine.world.effects, None
     owner, place = machine.evaluate(target.value, frame), frame.place(target)
     machine.world.effects = noted
-    method = code_behind.special_method(machine, owner, '__delitem__', place)
+    method = machine.special_method(owner, '__delitem__', place)
     if method is None:
         machine.note_update(target, frame, AccessKind.UPDATE_IN_PLACE)
     else:

@@ -22,6 +22,7 @@ from ros2cc_extract.extract.static.python.machine.store import Store, Writes
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
+    Bound,
     Call,
     Choice,
     Class,
@@ -112,6 +113,10 @@ class Machine(Observer, LibraryHooks, ABC):
     @abstractmethod
     def import_module(self, name: str, place: Place) -> Value:
         """A scanned module, or a library of that name."""
+
+    @abstractmethod
+    def special_method(self, owner: Value, name: str, place: Place) -> Bound | None:
+        """A method of a scanned class that Python calls for a statement or built-in function."""
 
     @abstractmethod
     def library(self, name: str) -> Value:

@@ -103,7 +103,8 @@ class World:
     :param same_unknowns: arguments of unknown callers that one attribute holds in turn.
     :param reading: what the callback that is followed has read.
     :param times: how often a loop does what is followed once, where that is known.
-    :param round: which rounds of the loops around it are followed, where that distinguishes them.
+    :param round: which rounds of the loops around it are followed, where that distinguishes them;
+        a negative number where the loop may be left before.
     :param iterating: class of the collection that a loop begins to go over.
     :param parts: what was made while an object was set up, by the identity of the object.
     :param moves: what the call does to a collection that follows, see ``Access``.

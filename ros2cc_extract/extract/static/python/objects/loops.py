@@ -171,7 +171,9 @@ def repeated(
     def begin(_item: Value) -> None:
         nonlocal rounds
         rounds += 1
-        world.round = (*before[0], rounds) if is_counted else before[0]
+        if is_known:
+            # At most so many where the loop may be left: such a round has a negative number.
+            world.round = (*before[0], rounds if is_counted else -rounds)
 
     try:
         yield begin
