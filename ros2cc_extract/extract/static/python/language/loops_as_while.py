@@ -62,12 +62,29 @@ def counting(node: ast.For | ast.AsyncFor) -> ast.While | None:
 
 def _counting(node: ast.For) -> ast.While | None:
     assert isinstance(node.target, ast.Name) and isinstance(node.iter, ast.Call)
-    if not any(isinstance(part, (ast.Break, ast.Return)) for part in walk(node)):
+    if not _looks_and_leaves(node):
         return None
     count = ast.Name(node.target.id, ast.Load())
     test = ast.Compare(count, [ast.Lt()], [node.iter.args[-1]])
     grows = ast.AugAssign(node.target, ast.Add(), ast.Constant(1))
     return _made(node, [grows], node.orelse, test)
+
+
+def _looks_and_leaves(node: ast.For) -> bool:
+    """Whether it is left by tests of data alone: what a call answers may be of another kind."""
+    ifs = [part for part in walk(node) if isinstance(part, ast.If)]
+    ways = [each for each in ifs if any(isinstance(part, _LEAVES) for part in each.body)]
+    calls = (part for each in ways for part in walk(each.test) if isinstance(part, ast.Call))
+    return bool(ways) and all(_name_of(call) in _PLAIN for call in calls)
+
+
+_LEAVES = (ast.Break, ast.Return)
+_PLAIN = frozenset(['len', 'bool', 'any', 'all', 'isinstance', 'abs', 'ok'])
+
+
+def _name_of(call: ast.Call) -> str:
+    function = call.func
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, 'id', '')
 
 
 def _endless(node: ast.For) -> ast.While:
