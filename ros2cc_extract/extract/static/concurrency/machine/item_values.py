@@ -31,11 +31,11 @@ class Thing:
     def __bool__(self) -> bool:
         raise TypeError('whether an object is true is not known')
 
-    def is_for_sure(self, other: Value) -> bool:
+    def is_for_sure(self, other: Thing) -> bool:
         """Whether this is ``other``; raises ``TypeError`` where that is not known."""
-        if not (isinstance(self.value, Instance) and isinstance(other, Instance)):
+        if not (isinstance(self.value, Instance) and isinstance(other.value, Instance)):
             raise TypeError('whether these are one thing is not known')
-        return self.value is other
+        return self.value is other.value
 
 
 def ends(tests: tuple[LoopTest, ...], item: Value | None) -> bool | None:

@@ -23,6 +23,8 @@ class Line(Node):
         super().__init__('line')
         self.items = queue.Queue()
         self.end = object()
+        self.is_late = False
+        self.is_asked = self.declare_parameter('asked', False).value
         self.worker = threading.Thread(target=self.work)
         self.worker.start()
         self.create_subscription(String, 'parts', self.on_part, 10)
@@ -30,6 +32,7 @@ class Line(Node):
         self.create_service(Trigger, 'finish', self.on_finish, callback_group=group)
 
     def on_part(self, msg):
+        self.is_late = True
         {put}
 
     def work(self):
@@ -98,6 +101,9 @@ TESTS = [
     ("item is None or item == 'stop'", "'stop'", ['on_part']),
     ("item is None or item == 'stop'", "'part'", NOT_ENDED),
     ("item is None or self.is_last(item)", "'part'", UNSURE),
+    ("item is None or self.is_late", "'part'", UNSURE),
+    ("item is None or self.is_asked", "'part'", UNSURE),
+    ("item is None or self.is_asked", 'None', ['on_part']),
 ]  # fmt: skip
 
 

@@ -2,8 +2,8 @@
 Loops that take from a queue until one certain item comes: ``while True: if queue.get() is None``.
 
 Not every item ends such a loop. Of its tests the same small formula is kept as of a loop on plain
-data, in which the item stands for itself; ``units/wakers/ending_items.py`` asks it for each thing
-that is put in.
+data, in which the item stands for itself; ``machine/item_values.py`` asks it for each thing that
+is put in.
 """
 
 from __future__ import annotations
@@ -16,7 +16,11 @@ from ros2cc_extract.extract.static.concurrency.machine.item_values import ITEM, 
 from ros2cc_extract.extract.static.concurrency.machine.loop_formulas import Formula, LoopTest
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef
-from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import evaluated, exits_of
+from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import (
+    evaluated,
+    exits_of,
+    seen_by,
+)
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import own_parts
 from ros2cc_extract.extract.static.concurrency.waits.loops.values_that_stay import stays_if
 from ros2cc_extract.extract.static.program.text_queries import walk
@@ -24,7 +28,7 @@ from ros2cc_extract.extract.static.python.machine.dependences import constant_ke
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
-from ros2cc_extract.extract.static.python.values.values import Const, Value
+from ros2cc_extract.extract.static.python.values.values import Const, Instance
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import WORKING_LOOP, Blocking, Needs
 from ros2cc_extract.spec.model import ActivityKind
@@ -139,30 +143,26 @@ def _formula(machine: ConcurrentMachine, node: ast.expr, parts: Parts, frame: Fr
 
 
 def _constant(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> Formula:
-    """What is the same in each round, as far as that is one thing."""
+    """What each round finds alike: a constant or an object, and no data that others may change."""
     options = evaluated(machine, node, frame)
-    if len(options) != 1:
-        return Formula('open', node=node)
-    (value,) = options
-    if isinstance(value, Const):
+    value = options[0] if len(options) == 1 else None
+    if isinstance(value, Const) and not seen_by(machine, [node], frame).names:
         return Formula('constant', value=value.value)
-    return Formula('constant', value=value)
-
-
-_OBJECTS = (Thing, Value)
+    if isinstance(value, Instance):
+        return Formula('constant', value=Thing(value))
+    return Formula('open', node=node)
 
 
 def _is(left: object, right: object) -> bool:
-    for one, other in ((left, right), (right, left)):
-        if isinstance(one, Thing) and isinstance(other, Value):
-            return one.is_for_sure(other)
+    if isinstance(left, Thing) and isinstance(right, Thing):
+        return left.is_for_sure(right)
     return left is right
 
 
 def _equals(left: object, right: object) -> bool:
     if left is None or right is None:
         return left is right  # no type of ROS, nor of the standard library, equals None
-    if isinstance(left, _OBJECTS) or isinstance(right, _OBJECTS):
+    if isinstance(left, Thing) or isinstance(right, Thing):
         raise TypeError('how these compare is not known')
     return left == right
 
