@@ -120,6 +120,8 @@ class InProcess:
         sys.settrace(None)  # this thread is not of the program
         samples: list[Sample] = []
         while not self._is_over.wait(TICK_S):
+            if self._control.is_over:
+                self._control.let_go()
             self._control.look_at_the_clock()
             now = time.monotonic()
             if now - self._control.moved_at < STILL_S:

@@ -20,6 +20,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from _pytest.runner import CallInfo, runtestprotocol
 
+from ros2cc_extract.ros.failed_orders import Order, keep, kept
+
 if TYPE_CHECKING:
     from ros2cc_extract.explore.failures import Failure
     from ros2cc_extract.explore.in_process import InProcess
@@ -33,6 +35,10 @@ _TEARDOWN_S = 10.0
 _MOST_CHOICES = 20
 # A test has few steps; by their number it is chosen where a schedule changes its mind.
 _STEPS = 12
+# What fails under a schedule is repeated in the order it had then, and by its number, in turns:
+# what the test does before the first choice is not the schedule's.
+_REPEATS = 6
+_RECORDED = {'policy': 'recorded', 'gather_s': 0.0, 'ends_at_miss': True}
 _running: list[_Schedule] = []
 _hung: list[str] = []
 
@@ -71,13 +77,14 @@ def _reports(
     from ros2cc_extract.explore.in_process import Learned
 
     asked = item.config.getoption(OPTION)
-    numbers = [0, *([asked] if asked else range(1, _count(marker) + 1))]
+    numbers = [0, *([asked] * _REPEATS if asked else range(1, _count(marker) + 1))]
     learned, points = Learned(), _points(_sources(marker))
     reports: list[pytest.TestReport] = []
-    for number in numbers:
-        is_last = number == numbers[-1]
+    for turn, number in enumerate(numbers, 1):
+        is_last = turn == len(numbers)
         item._initrequest()
-        schedule = _Schedule(number, points, learned)
+        order = kept(item, number, points) if asked and turn % 2 == 0 else []
+        schedule = _Schedule(number, points, learned, order)
         _running.append(schedule)
         # Until the last one, what is made for more than one test stays as it is.
         follows: Any = nextitem if is_last else item.parent
@@ -88,6 +95,8 @@ def _reports(
             schedule.uninstall()
         schedule.judge(item, reports)
         if any(report.failed or report.skipped for report in reports):
+            if number and not asked:
+                keep(item, number, points, schedule.order)
             if not is_last:
                 reports += _torn_down(item, nextitem)
             break
@@ -146,10 +155,15 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 
 
 class _Schedule:
-    """One run of a test under one schedule; number 0 is the run as it comes."""
+    """
+    One run of a test under one schedule; number 0 is the run as it comes.
 
-    def __init__(self, number: int, points: tuple[Point, ...], learned: Any) -> None:
+    :param order: in which the schedule has failed before; empty where that is not known.
+    """
+
+    def __init__(self, number: int, points: tuple[Point, ...], learned: Any, order: Order) -> None:
         self._number = number
+        self._order = order
         self._points = points
         self._learned = learned
         self._own: InProcess | None = None
@@ -182,6 +196,11 @@ class _Schedule:
             if self._before is not None:
                 signal.signal(signal.SIGUSR2, self._before)
 
+    @property
+    def order(self) -> Order:
+        """What was chosen in this run."""
+        return self._own.choices if self._own is not None else []
+
     def uninstall(self) -> None:
         if self._own is not None:
             self._own.uninstall()
@@ -192,6 +211,8 @@ class _Schedule:
 
         if self._number == 0:
             return {'number': 0, 'policy': PLAIN}
+        if self._order:
+            return {'number': self._number, **_RECORDED, 'choices': self._order}
         return schedule_row(Strategy.MIXED, 1, self._number, _STEPS)
 
     def _found_hang(self, failure: Failure) -> None:
@@ -237,7 +258,7 @@ class _Schedule:
         assert self._own is not None
         lines = [self._how_to_repeat(item.nodeid)]
         lines += [_text(each) for each in self._own.failures if each.kind is not Kind.HANG]
-        order = self._own.choices
+        order = self.order
         if order:
             lines.append('in this order:')
             lines += ['  …'] if len(order) > _MOST_CHOICES else []

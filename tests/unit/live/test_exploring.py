@@ -130,6 +130,20 @@ def test_a_recorded_order_waits_for_who_is_due(monkeypatch: pytest.MonkeyPatch) 
     assert policy.is_over and policy.left_out == 1
 
 
+def test_a_recorded_order_may_end_where_one_does_not_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    row = {
+        'policy': 'recorded',
+        'choices': [('b#7', 'begin'), ('gone#1', 'begin'), ('a#1', 'begin')],
+    }
+    policy = policies.policy_of({**row, 'ends_at_miss': True})
+    chosen = policy.choose([Choice('b#1')], '')
+    assert chosen is not None and chosen.key == 'b#1' and not policy.is_over
+    monkeypatch.setattr(policies, 'PATIENCE_S', 0.0)
+    other = Choice('c#1')
+    assert policy.choose([other], 'b#1') is other
+    assert policy.is_over
+
+
 def test_what_is_no_policy_is_refused() -> None:
     with pytest.raises(ValueError, match='fate is no policy'):
         of('fate', 1)

@@ -85,6 +85,7 @@ class Control:
 
     @property
     def is_open(self) -> bool:
+        """Whether all threads go on as they come."""
         return self._policy is None and not self.is_closed
 
     def take(self, policy: Policy, gather_s: float, *, once: bool = False) -> None:

@@ -118,11 +118,14 @@ class Recorded:
 
     Runs of one callback are alike: which of them goes on is not recorded. One that is due but does
     not come in time is left out, as another process may have begun elsewhere.
+
+    :param ends_at_miss: all go on from the first one that does not come in time.
     """
 
-    def __init__(self, choices: Sequence[Sequence[str]]) -> None:
+    def __init__(self, choices: Sequence[Sequence[str]], *, ends_at_miss: bool = False) -> None:
         self._left = [(callback_of(key), at) for key, at in choices]
         self._since = time.monotonic()
+        self._ends_at_miss = ends_at_miss
         self.left_out = 0
 
     @property
@@ -138,7 +141,7 @@ class Recorded:
                 return found
             if time.monotonic() - self._since < PATIENCE_S:
                 return None
-            self._left.pop(0)
+            del self._left[: len(self._left) if self._ends_at_miss else 1]
             self.left_out += 1
             self._since = time.monotonic()
         return candidates[0]
@@ -199,7 +202,7 @@ def policy_of(row: dict[str, Any]) -> Policy:
     if kind == 'preemptions':
         return FewPreemptions(seed, depth, steps)
     if kind == 'recorded':
-        return Recorded(row['choices'])
+        return Recorded(row['choices'], ends_at_miss=bool(row.get('ends_at_miss')))
     if kind == 'prefix':
         return Prefix(row['choices'], steps)
     raise ValueError(f'{kind} is no policy')

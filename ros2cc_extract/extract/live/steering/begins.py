@@ -25,6 +25,7 @@ from .report import Report
 
 # An executor asks at once again; without a pause it would ask all the time.
 _PAUSE_S = 0.002
+_EXECUTORS = 'rclpy.executors'
 
 
 class Guard(Protocol):
@@ -42,6 +43,29 @@ class Guard(Protocol):
     def ended(self, entity: Any) -> None:
         """It has come to its end."""
 
+    @property
+    def is_open(self) -> bool:
+        """Whether all threads go on as they come."""
+
+
+class _Pauses:
+    """
+    Lets other threads come to their turn where an executor looks again and again.
+
+    A subscription whose message is not taken yet wakes it by its QoS events as well, so that its
+    wait returns at once, each time; the thread that is to take the message may then wait for the
+    interpreter's lock for seconds. Source: measured, rclpy 7.1.6 with rmw_fastrtps_cpp.
+    """
+
+    def __init__(self) -> None:
+        self._since = time.monotonic()
+
+    def make(self) -> None:
+        """Rest, but not more often than the executor works."""
+        if time.monotonic() - self._since > _PAUSE_S:
+            time.sleep(_PAUSE_S)
+            self._since = time.monotonic()
+
 
 def steer_groups(module: Any, guard: Guard) -> Callable[[], None]:
     """
@@ -50,9 +74,10 @@ def steer_groups(module: Any, guard: Guard) -> Callable[[], None]:
     :return: what puts them back.
     """
     wrapped: list[tuple[Any, str, Any]] = []
+    pauses = _Pauses()
     for group in list(vars(module).values()):
         if isinstance(group, type) and issubclass(group, module.CallbackGroup):
-            wrapped += _steer(group, guard)
+            wrapped += _steer(group, guard, pauses)
 
     def undo() -> None:
         for group, name, original in wrapped:
@@ -61,10 +86,17 @@ def steer_groups(module: Any, guard: Guard) -> Callable[[], None]:
     return undo
 
 
-def _steer(group: Any, guard: Guard) -> list[tuple[Any, str, Any]]:
-    begin, end = group.__dict__.get('beginning_execution'), group.__dict__.get('ending_execution')
-    if begin is None or end is None:
+def _steer(group: Any, guard: Guard, pauses: _Pauses) -> list[tuple[Any, str, Any]]:
+    names = ('can_execute', 'beginning_execution', 'ending_execution')
+    can, begin, end = map(group.__dict__.get, names)
+    if can is None or begin is None or end is None:
         return []
+
+    @functools.wraps(can)
+    def can_execute(self: Any, entity: Any) -> Any:
+        if not guard.is_open and sys._getframe(1).f_globals.get('__name__') == _EXECUTORS:
+            pauses.make()
+        return can(self, entity)
 
     @functools.wraps(begin)
     def beginning_execution(self: Any, entity: Any) -> bool:
@@ -80,9 +112,10 @@ def _steer(group: Any, guard: Guard) -> list[tuple[Any, str, Any]]:
         guard.ended(entity)
         return end(self, entity)
 
-    group.beginning_execution = beginning_execution
-    group.ending_execution = ending_execution
-    return [(group, 'beginning_execution', begin), (group, 'ending_execution', end)]
+    wrapped = zip(names, (can_execute, beginning_execution, ending_execution), strict=True)
+    for name, function in wrapped:
+        setattr(group, name, function)
+    return list(zip((group,) * 3, names, (can, begin, end), strict=True))
 
 
 def steer_takes(executor: Any, taken: Callable[[Any], None]) -> None:
@@ -105,6 +138,7 @@ class Running:
     """Which callbacks run in which thread, one inside the other; a director decides."""
 
     _of_thread = threading.local()
+    is_open = True
 
     def __init__(self, director: Director, report: Report) -> None:
         self._director = director
@@ -146,7 +180,7 @@ class Running:
 def _is_in_callback(frame: FrameType | None) -> bool:
     """Whether an executor has called it."""
     while frame is not None:
-        if frame.f_globals.get('__name__') == 'rclpy.executors':
+        if frame.f_globals.get('__name__') == _EXECUTORS:
             return True
         frame = frame.f_back
     return False
