@@ -26,8 +26,8 @@ def made_property(machine: Machine, receiver: Value, call: Call) -> Value:
     """``property(get, set, delete)``."""
     getter = call.argument(0, 'fget')
     others = {'setter': call.argument(1, 'fset'), 'deleter': call.argument(2, 'fdel')}
-    known = getter or others['setter']
-    if not isinstance(known, Function):
+    known = next((o for o in (getter, *others.values()) if isinstance(o, Function)), None)
+    if known is None:
         return machine.mystery('a property that is not followed', call.place, 'property(…)')
     made = _property(known)
     made.binding = 'property'
