@@ -7,11 +7,13 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static.python.branching import open_tests
+from ros2cc_extract.extract.static.python.builtins import builtin_methods
 from ros2cc_extract.extract.static.python.machine import path_facts
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
+from ros2cc_extract.extract.static.python.values.containers import Fields
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
     Const,
@@ -139,6 +141,9 @@ def _is_answered_by_code(
     """Whether a method of one of them decides, whose effects are noted; its answer stays open."""
     is_of_items = isinstance(operator, (ast.In, ast.NotIn))
     owner, other = (right, left) if is_of_items else (left, right)
+    if is_of_items and isinstance(owner, Fields) and isinstance(other, Const):
+        builtin_methods.held_field(machine, owner, str(other.value), place)
+        return True
     name = _COMPARISONS.get(type(operator))
     method = machine.special_method(owner, name, place) if name is not None else None
     if method is not None:

@@ -21,7 +21,12 @@ from ros2cc_extract.extract.static.python.objects.iterators import iterator
 from ros2cc_extract.extract.static.python.objects.memoization import keep_results
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
-from ros2cc_extract.extract.static.python.values.containers import Collection, Mapping, Sequence
+from ros2cc_extract.extract.static.python.values.containers import (
+    Collection,
+    Fields,
+    Mapping,
+    Sequence,
+)
 from ros2cc_extract.extract.static.python.values.values import (
     ABSENT,
     NONE,
@@ -272,7 +277,10 @@ def _getattr(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _setattr(machine: Machine, receiver: Value, call: Call) -> Value:
     owner = call.args[0] if call.args else NONE
-    return builtin_methods.set_attribute(machine, owner, Call(call.place, call.args[1:]))
+    own = machine.special_method(owner, '__setattr__', call.place)
+    if own is not None:
+        return machine.call(own, Call(call.place, call.args[1:]))
+    return builtin_methods.set_attribute_of(machine, receiver, call)
 
 
 def _hasattr(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -294,6 +302,13 @@ def _isinstance(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(value, Const) and classes and all(isinstance(cls, Class) for cls in classes):
         return Const(False)
     return machine.mystery('isinstance', call.place, 'isinstance(…)')
+
+
+def _vars(machine: Machine, receiver: Value, call: Call) -> Value:
+    owner = call.args[0] if call.args else NONE
+    if isinstance(owner, Instance):
+        return Fields(owner)
+    return machine.mystery('vars', call.place, 'vars(…)')
 
 
 def _callable(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -416,6 +431,7 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.hasattr': _hasattr,
     'builtins.isinstance': _isinstance,
     'builtins.callable': _callable,
+    'builtins.vars': _vars,
     'builtins.super': _super,
     'builtins.map': mapped,
     'builtins.filter': filtered,

@@ -322,7 +322,16 @@ class Calls(Machine):
             if name != '__class_body__':
                 self.store.write(cls, mangled(name, cls.name), value)
                 bind_by_name(name, value)
+                self._name_described(cls, name, value)
         return cls
+
+    def _name_described(self, cls: Class, name: str, value: Value) -> None:
+        """Python tells each object of a class body its name; it may stand for an attribute."""
+        naming = self.special_method(value, '__set_name__', cls.place)
+        if naming is not None:
+            self.call(naming, Call(cls.place, [cls, Const(name)]))
+        if self.special_method(value, '__set__', cls.place) is not None:
+            self.world.described.add(name)
 
     def _give_metaclass(self, cls: Class, node: ast.ClassDef, frame: Frame) -> None:
         """The metaclass of the class statement, or that of a base."""

@@ -10,11 +10,13 @@ from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Call,
     Class,
+    Const,
     Function,
     Instance,
     Value,
     options_of,
 )
+from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 _SETTER = '<setter>'
@@ -36,6 +38,18 @@ _OPERATORS: dict[type[ast.operator], str] = {
 }
 
 
+@dataclass(frozen=True)
+class Setter:
+    """
+    What an assignment calls.
+
+    :param given: what it gets before the value.
+    """
+
+    method: Bound
+    given: tuple[Value, ...] = ()
+
+
 def with_setter(machine: Machine, known: Value, setter: Function) -> Function | None:
     """``@known.setter``: a property like ``known`` that is assigned by calling ``setter``."""
     if not isinstance(known, Function) or known.binding != 'property':
@@ -46,15 +60,26 @@ def with_setter(machine: Machine, known: Value, setter: Function) -> Function | 
     return made
 
 
-def setters_of(owner: Value, name: str) -> list[Bound]:
+def setters_of(machine: Machine, owner: Value, name: str) -> list[Setter]:
     """What ``owner.name = …`` calls instead of storing anything."""
+    own = machine.special_method(owner, '__setattr__', Place(''))
+    if own is not None:
+        return [Setter(own, (Const(name),))]
+    return setters_behind(machine, owner, name)
+
+
+def setters_behind(machine: Machine, owner: Value, name: str) -> list[Setter]:
+    """The same of ``object.__setattr__``: properties and descriptors of the class."""
     if not isinstance(owner, Instance):
         return []
     for cls in owner.mro:
         if isinstance(cls, Class) and name in cls.slots:
             known = cls.slots[name]
             setter = known.slots.get(_SETTER) if isinstance(known, Function) else None
-            return [Bound(owner, setter)] if isinstance(setter, Function) else []
+            if isinstance(setter, Function):
+                return [Setter(Bound(owner, setter))]
+            method = machine.special_method(known, '__set__', Place(''))
+            return [Setter(method, (owner,))] if method is not None else []
     return []
 
 
@@ -64,19 +89,22 @@ def is_assigned_by_call(machine: Machine, target: ast.Attribute, frame: Frame) -
     owner = machine.evaluate(target.value, frame)
     machine.world.effects = noted
     name = frame.attribute_name(target.attr)
-    return any(setters_of(option, name) for option in options_of(owner))
+    return any(setters_of(machine, option, name) for option in options_of(owner))
 
 
-def assign(machine: Machine, setter: Bound, value: Value, place: Place) -> None:
+def assign(machine: Machine, setter: Setter, value: Value, place: Place) -> None:
     """``owner.name = value`` runs the code behind it, which knows what ``value`` rests on."""
     reading = machine.world.reading
     waited, reading.waited = reading.waited, None
-    call = Call(waited or place, [value])
+    # What the value rests on was read before, also where it stands further right.
+    begin = waited or (reading.value_end if reading.flowing else None) or place
+    call = Call(begin, [*setter.given, value])
     if reading.flowing:
-        call.sources[0] = reading.flowing
+        call.sources[len(setter.given)] = reading.flowing
     reading.calls += 1
-    machine.call(setter, call)
-    reading.waited = waited
+    is_whole, reading.is_whole = reading.is_whole, False
+    machine.call(setter.method, call)
+    reading.waited, reading.is_whole = waited, is_whole
 
 
 def operated(

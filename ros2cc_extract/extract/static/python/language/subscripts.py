@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 
+from ros2cc_extract.extract.static.python.builtins import builtin_methods
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
@@ -14,7 +15,7 @@ from ros2cc_extract.extract.static.python.values.assumed_defaults import (
     default_of,
     items_by_default,
 )
-from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.python.values.containers import Fields, Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -88,6 +89,9 @@ def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame
         return constant_folding.subscript(owner, key) or machine.mystery('bad subscript', place)
     if isinstance(owner, (Class, Library)):
         return owner
+    if isinstance(owner, Fields):
+        held = builtin_methods.field(machine, owner, key, place)
+        return held or machine.mystery('attribute that could not be followed', place, node)
     if isinstance(owner, Instance) and isinstance(owner.cls, Class):
         method = machine.attribute(owner, '__getitem__', place)
         if isinstance(method, Bound):

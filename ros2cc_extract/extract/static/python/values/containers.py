@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.python.values.values import Heaped, Mystery, Value, options_of
+from ros2cc_extract.extract.static.python.values.values import (
+    Heaped,
+    Instance,
+    Mystery,
+    Value,
+    options_of,
+)
 from ros2cc_extract.source_locations import Unknown
 
 
@@ -94,6 +100,15 @@ class Mapping(Collection):
         """The known entries, in order; never to be changed in place."""
         entries: dict[Value, Value] = self.slots['entries']
         return entries
+
+
+class Fields(Value):
+    """``owner.__dict__``: the attributes of an object by name, past its own methods for them."""
+
+    __slots__ = ('owner',)
+
+    def __init__(self, owner: Instance) -> None:
+        self.owner = owner
 
 
 def collection_class(value: Collection) -> str:
