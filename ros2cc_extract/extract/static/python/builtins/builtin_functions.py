@@ -24,6 +24,7 @@ from ros2cc_extract.extract.static.python.values.assumed_defaults import by_defa
 from ros2cc_extract.extract.static.python.values.containers import (
     Collection,
     Fields,
+    Generator,
     Mapping,
     Sequence,
 )
@@ -109,6 +110,8 @@ def _converted(kind: str) -> Handler:
 
 
 def _iter(machine: Machine, receiver: Value, call: Call) -> Value:
+    if len(call.args) == 1 and isinstance(call.args[0], Generator):
+        return call.args[0]
     return iterator(call) or _converted('list')(machine, receiver, call)
 
 

@@ -5,14 +5,19 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static.python.branching import open_tests
-from ros2cc_extract.extract.static.python.builtins import builtin_methods
+from ros2cc_extract.extract.static.python.builtins import builtin_methods, generators
 from ros2cc_extract.extract.static.python.language.code_behind import setters_behind
 from ros2cc_extract.extract.static.python.machine.machine import ENTRIES, Machine
 from ros2cc_extract.extract.static.python.machine.world import Cut, note_once
 from ros2cc_extract.extract.static.python.objects import subclass_registry
 from ros2cc_extract.extract.static.python.objects.metaclasses import NEW, of_metaclass, type_call
 from ros2cc_extract.extract.static.python.objects.unset_globals import UNSET
-from ros2cc_extract.extract.static.python.values.containers import Fields, Mapping, Sequence
+from ros2cc_extract.extract.static.python.values.containers import (
+    Fields,
+    Generator,
+    Mapping,
+    Sequence,
+)
 from ros2cc_extract.extract.static.python.values.enumerations import Member
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -109,6 +114,8 @@ class Attributes(Machine):
             return value.value.attribute(name, place)
         if isinstance(value, Fields):
             return builtin_methods.field_method(value, name)
+        if isinstance(value, Generator):
+            return generators.method(name, value)
         if isinstance(value, (Sequence, Mapping, Const)):
             return builtin_methods.method(value, name)
         if isinstance(value, Mystery):

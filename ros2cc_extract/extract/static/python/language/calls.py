@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static.program.text_queries import is_test, mangled
+from ros2cc_extract.extract.static.python.builtins import generators
 from ros2cc_extract.extract.static.python.language import plain_data_calls, recursive_loops
 from ros2cc_extract.extract.static.python.language.code_behind import with_setter
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, NEXT, RETURN
@@ -21,7 +22,7 @@ from ros2cc_extract.extract.static.python.objects import memoization, subclass_r
 from ros2cc_extract.extract.static.python.objects.metaclasses import bind_by_name, of_metaclass
 from ros2cc_extract.extract.static.python.values import enumerations
 from ros2cc_extract.extract.static.python.values.argument_binding import fits, sources_of
-from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.python.values.containers import Generator, Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.method_resolution import (
     cost_of_order,
     resolution_order,
@@ -77,6 +78,7 @@ class Calls(Machine):
 
     def unknown_call(self, function: Value, call: Call) -> Value:
         """The result of calling something that cannot be followed."""
+        generators.run_given(self, function, call)
         self.library_call(function, call)
         if isinstance(function, Mystery):
             self.note_unknown_call(function, call)
@@ -85,9 +87,11 @@ class Calls(Machine):
         return self.mystery(f'result of {name}, which is not followed', call.place, name)
 
     def call_function(self, function: Function, call: Call) -> Value:
-        """Run a scanned function; a coroutine function only makes its coroutine."""
+        """Run a scanned function; that of a coroutine or generator only makes it."""
         if function.is_coroutine:
             return Coroutine(function, call)
+        if generators.is_generator(function):
+            return Generator(function, call)
         run = partial(self.run_shortly, function)
         if memoization.is_kept(function):
             return memoization.recall(self, function, call, run)
@@ -373,6 +377,7 @@ class Calls(Machine):
         if not isinstance(turn, Bound) or not isinstance(turn.function, Function):
             return None
         given = self.call(turn, Call(place))
+        generators.run(self, given, place)
         is_whole = isinstance(given, Sequence) and not given.others
         return given.items if is_whole and isinstance(given, Sequence) and given.items else None
 
@@ -414,10 +419,12 @@ def _call_partial(machine: Calls, function: Partial, call: Call) -> Value:
 
 
 def _call_native(machine: Calls, function: Native, call: Call) -> Value:
+    generators.run_given(machine, function, call)
     return function.handler(machine, function.receiver, call)
 
 
 def _call_library(machine: Calls, function: Library, call: Call) -> Value:
+    generators.run_given(machine, function, call)
     return machine.call_library(function, call)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import conditions, narrowed_types, open_tests
 from ros2cc_extract.extract.static.python.branching.order_of_text import Asked
+from ros2cc_extract.extract.static.python.builtins import generators
 from ros2cc_extract.extract.static.python.language.call_expressions import evaluate_call
 from ros2cc_extract.extract.static.python.language.code_behind import operated
 from ros2cc_extract.extract.static.python.language.subscripts import slice_alone, subscript
@@ -82,6 +83,7 @@ class Expressions(Machine):
     def items_of(self, value: Value, place: Any) -> tuple[tuple[Value, ...], Unknown | None]:
         """What iterating over ``value`` gives, and why there may be more."""
         if isinstance(value, Sequence):
+            generators.run(self, value, place)
             return value.items, value.rest
         if isinstance(value, Mapping):
             return tuple(value.entries), value.rest

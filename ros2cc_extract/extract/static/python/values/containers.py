@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from ros2cc_extract.extract.static.python.values.values import (
+    Call,
+    Function,
     Heaped,
     Instance,
     Mystery,
@@ -74,6 +76,22 @@ class Sequence(Collection):
     def items(self) -> tuple[Value, ...]:
         """The known items, in order."""
         return tuple(self.slots['items'])
+
+
+class Generator(Sequence):
+    """
+    What a generator function gives; its items are known once its body has run.
+
+    Slots: ``taker`` (for whom it has run last), ``held`` (the locks that it keeps while it
+    yields), and those of a sequence.
+    """
+
+    __slots__ = ('call', 'function')
+
+    def __init__(self, function: Function, call: Call) -> None:
+        super().__init__((), 'generator', Unknown('nothing was taken from it yet', call.place))
+        self.function = function
+        self.call = call
 
 
 class Mapping(Collection):
