@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static.python.branching import open_tests
-from ros2cc_extract.extract.static.python.builtins import builtin_methods
+from ros2cc_extract.extract.static.python.builtins import builtin_methods, code_behind
 from ros2cc_extract.extract.static.python.machine import path_facts
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -47,6 +47,8 @@ def boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
     for index, part in enumerate(node.values):
         before = machine.world.changing
         value = machine.evaluate(part, frame)
+        if index < len(node.values) - 1:
+            code_behind.asked_as(machine, value, 'bool', frame.place(part))
         values.append(value)
         machine.world.assume(path_facts.implied_by(value), holds=not stops_on)
         is_open = machine.world.changing != before
@@ -96,7 +98,11 @@ def _open_condition(
 
 def unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
     value = machine.evaluate(node.operand, frame)
+    by_code = code_behind.negated(machine, node.op, value, frame.place(node))
+    if by_code is not None:
+        return by_code
     if isinstance(node.op, ast.Not):
+        code_behind.asked_as(machine, value, 'bool', frame.place(node))
         truth = machine.truth(value)
         if truth is not None:
             return Const(not truth)

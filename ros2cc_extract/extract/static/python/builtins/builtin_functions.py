@@ -7,7 +7,9 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
-from ros2cc_extract.extract.static.python.builtins import builtin_methods
+from ros2cc_extract.extract.static.python.builtins import builtin_methods, given_functions
+from ros2cc_extract.extract.static.python.builtins.code_behind import asked_as
+from ros2cc_extract.extract.static.python.builtins.given_functions import called_at_once
 from ros2cc_extract.extract.static.python.builtins.map_and_zip import filtered, mapped, zipped
 from ros2cc_extract.extract.static.python.builtins.methods_by_name import methods_named_like
 from ros2cc_extract.extract.static.python.builtins.sorting import identity, in_order
@@ -203,6 +205,7 @@ def _letter(function: Callable[[Any], object]) -> Handler:
 def _scalar(kind: type) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         value = call.args[0] if call.args else Const(kind())
+        asked_as(machine, value, kind.__name__, call.place)
         if isinstance(value, Const) and len(call.args) < 2:
             try:
                 return Const(kind(value.value))
@@ -238,11 +241,16 @@ def _of_all(*, stops_on: bool) -> Handler:
     return handler
 
 
+def _key_of(call: Call) -> dict[str, Value]:
+    return {name: value for name, value in call.keywords.items() if name == 'key'}
+
+
 def _extreme(act: str) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         values = call.args
         if len(values) == 1:
             values = list(machine.items_of(values[0], call.place)[0])
+        called_at_once(machine, Call(call.place, [], _key_of(call)))
         numbers = [value.value for value in values if isinstance(value, Const)]
         if numbers and len(numbers) == len(values) and not call.keywords and not call.more:
             try:
@@ -371,15 +379,6 @@ def _same(machine: Machine, receiver: Value, call: Call) -> Value:
     return Native('decorator', _same)
 
 
-def _enter_on_stack(machine: Machine, receiver: Value, call: Call) -> Value:
-    """``stack.enter_context(c)`` enters ``c`` until the stack's own block is left."""
-    entered = call.argument(0, 'cm')
-    return machine.enter_context(entered, call.place) if entered is not None else NONE
-
-
-_EXIT_STACK = LibraryClass(init=_print, methods={'enter_context': _enter_on_stack})
-
-
 def _deque(machine: Machine, receiver: Value, call: Call) -> Value:
     return _converted('deque')(machine, receiver, Call(call.place, call.args[:1]))
 
@@ -387,6 +386,7 @@ def _deque(machine: Machine, receiver: Value, call: Call) -> Value:
 def _defaultdict(machine: Machine, receiver: Value, call: Call) -> Value:
     made = Mapping({}, Unknown('defaultdict', call.place) if call.args else None)
     made.fills = bool(call.args)
+    made.slots['factory'] = call.args[0] if call.args else NONE
     return made
 
 
@@ -477,11 +477,11 @@ _CLOCKS = ('time', 'monotonic', 'perf_counter', 'process_time', 'thread_time')
 TABLE = Library(
     classes={
         'builtins.object': LibraryClass(init=_print),
-        'contextlib.ExitStack': _EXIT_STACK,
-        'contextlib.AsyncExitStack': _EXIT_STACK,
+        **given_functions.CLASSES,
     },
     functions={
         **_FUNCTIONS,
+        **given_functions.FUNCTIONS,
         'importlib.import_module': _import_module,
     },
     constants={

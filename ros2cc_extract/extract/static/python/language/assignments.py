@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import narrowed_types
-from ros2cc_extract.extract.static.python.language import code_behind
+from ros2cc_extract.extract.static.python.builtins import code_behind
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.machine import Machine

@@ -6,7 +6,7 @@ import ast
 
 from ros2cc_extract.extract.static.python.branching import open_tests
 from ros2cc_extract.extract.static.python.builtins import builtin_methods, generators
-from ros2cc_extract.extract.static.python.language.code_behind import setters_behind
+from ros2cc_extract.extract.static.python.builtins.code_behind import setters_behind
 from ros2cc_extract.extract.static.python.machine.machine import ENTRIES, Machine
 from ros2cc_extract.extract.static.python.machine.world import Cut, note_once
 from ros2cc_extract.extract.static.python.objects import subclass_registry

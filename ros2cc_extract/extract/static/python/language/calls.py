@@ -7,9 +7,9 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static.program.text_queries import is_test, mangled
-from ros2cc_extract.extract.static.python.builtins import generators
+from ros2cc_extract.extract.static.python.builtins import generators, given_functions
+from ros2cc_extract.extract.static.python.builtins.code_behind import with_setter
 from ros2cc_extract.extract.static.python.language import plain_data_calls, recursive_loops
-from ros2cc_extract.extract.static.python.language.code_behind import with_setter
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError, CannotCallError, Frame
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
@@ -425,6 +425,7 @@ def _call_native(machine: Calls, function: Native, call: Call) -> Value:
 
 def _call_library(machine: Calls, function: Library, call: Call) -> Value:
     generators.run_given(machine, function, call)
+    given_functions.run_by(machine, function, call)
     return machine.call_library(function, call)
 
 

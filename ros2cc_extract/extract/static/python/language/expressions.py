@@ -9,14 +9,14 @@ from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import conditions, narrowed_types, open_tests
 from ros2cc_extract.extract.static.python.branching.order_of_text import Asked
-from ros2cc_extract.extract.static.python.builtins import generators
+from ros2cc_extract.extract.static.python.builtins import code_behind, generators
+from ros2cc_extract.extract.static.python.builtins.code_behind import operated
 from ros2cc_extract.extract.static.python.language.call_expressions import evaluate_call
-from ros2cc_extract.extract.static.python.language.code_behind import operated
 from ros2cc_extract.extract.static.python.language.subscripts import slice_alone, subscript
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
-from ros2cc_extract.extract.static.python.objects import loops
+from ros2cc_extract.extract.static.python.objects import iterators, loops
 from ros2cc_extract.extract.static.python.objects.iterators import RepeatedCall
 from ros2cc_extract.extract.static.python.objects.unset_globals import unset_global
 from ros2cc_extract.extract.static.python.values import constant_folding
@@ -96,6 +96,12 @@ class Expressions(Machine):
         if isinstance(value, RepeatedCall):
             reason = Unknown('as many items as the call gives before the sentinel', place)
             return (self.call(value.function, Call(place)),), reason
+        own = iterators.iterated(self, value, place)
+        if own is not value:
+            return self.items_of(own, place)
+        step = iterators.next_of(self, value, place) if isinstance(value, Instance) else None
+        if step is not None:
+            return (step(),), Unknown('as many items as the object gives', place)
         self.note_results(value, place)
         return (), Unknown('a sequence that could not be followed', place)
 
@@ -314,6 +320,8 @@ def _joined_text(*parts: Value) -> Value | None:
 
 def _formatted_part(machine: Expressions, node: ast.FormattedValue, frame: Frame) -> Value:
     value = machine.evaluate(node.value, frame)
+    kind = {ord('r'): 'repr', ord('s'): 'str'}.get(node.conversion, 'format')
+    code_behind.asked_as(machine, value, kind, frame.place(node.value))
     if node.conversion == -1 and node.format_spec is None:
         return value
     if isinstance(value, Const) and node.conversion == -1 and node.format_spec is not None:

@@ -9,6 +9,7 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Call,
+    Choice,
     Class,
     Const,
     Function,
@@ -105,6 +106,46 @@ def assign(machine: Machine, setter: Setter, value: Value, place: Place) -> None
     is_whole, reading.is_whole = reading.is_whole, False
     machine.call(setter.method, call)
     reading.waited, reading.is_whole = waited, is_whole
+
+
+_CONVERSIONS = {
+    'str': ('__str__', '__repr__'),
+    'repr': ('__repr__',),
+    'format': ('__format__', '__str__', '__repr__'),
+    'bool': ('__bool__', '__len__'),
+    'int': ('__int__', '__index__'),
+    'float': ('__float__', '__index__'),
+    'abs': ('__abs__',),
+    'round': ('__round__',),
+    'hash': ('__hash__',),
+    'next': ('__next__',),
+}
+
+
+def asked_as(machine: Machine, value: Value, kind: str, place: Place) -> None:
+    """An object is asked for its truth, its text or its number: a method of it says that."""
+    for option in options_of(value) if isinstance(value, Choice) else (value,):
+        if not isinstance(option, Instance):
+            continue
+        methods = (machine.special_method(option, name, place) for name in _CONVERSIONS[kind])
+        method = next((each for each in methods if each is not None), None)
+        if method is not None:
+            given: list[Value] = [Const('')] if method.function.name == '__format__' else []
+            machine.call(method, Call(place, given))
+
+
+_UNARY: dict[type[ast.unaryop], str] = {
+    ast.USub: '__neg__',
+    ast.UAdd: '__pos__',
+    ast.Invert: '__invert__',
+}
+
+
+def negated(machine: Machine, op: ast.unaryop, value: Value, place: Place) -> Value | None:
+    """``-value`` or ``~value``, where a method of it says what that is."""
+    name = _UNARY.get(type(op))
+    method = machine.special_method(value, name, place) if name is not None else None
+    return machine.call(method, Call(place)) if method is not None else None
 
 
 def operated(
