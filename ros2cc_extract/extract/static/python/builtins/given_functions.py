@@ -13,10 +13,12 @@ from functools import partial
 from ros2cc_extract.extract.static.python.builtins.code_behind import asked_as, with_setter
 from ros2cc_extract.extract.static.python.machine.library_table import LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
     Call,
+    Class,
     Const,
     Function,
     Handler,
@@ -96,6 +98,62 @@ def _method_type(machine: Machine, receiver: Value, call: Call) -> Value:
         if isinstance(function, Function)
         else Partial(function, (owner,), {})
     )
+
+
+def method_of(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``function.__get__(owner)``: the method of that object."""
+    owner = call.args[0] if call.args else NONE
+    is_method = isinstance(receiver, Function) and isinstance(owner, Instance)
+    return Bound(owner, receiver) if is_method else receiver  # type: ignore[arg-type]
+
+
+def _members(machine: Machine, receiver: Value, call: Call) -> Value:
+    """
+    ``inspect.getmembers(owner, isfunction)``: the functions of its scanned classes, by name.
+
+    Those of a library carry nothing of the program.
+    """
+    owner = call.args[0] if call.args else NONE
+    predicate = call.argument(1, 'predicate')
+    found = _functions_of(owner)
+    if found is None or getattr(predicate, 'name', '') not in _OF_FUNCTIONS:
+        return machine.mystery('members of an unknown object', call.place, 'getmembers(…)')
+    rows = (
+        Sequence((Const(name), machine.attribute(owner, name, call.place)), 'tuple')
+        for name in sorted(found)
+    )
+    return Sequence(tuple(rows), 'list')
+
+
+_OF_FUNCTIONS = frozenset(
+    {'inspect.isfunction', 'inspect.ismethod', 'inspect.isroutine', 'builtins.callable'}
+)
+
+
+def _names(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``dir(owner)``, as far as the program has made what is there."""
+    owner = call.args[0] if call.args else NONE
+    if not isinstance(owner, (Class, Instance)) or not isinstance(_class_of(owner), Class):
+        return machine.mystery('names of an unknown object', call.place, 'dir(…)')
+    holders = [owner, *(cls for cls in owner.mro if isinstance(cls, Class))]
+    names = {name for each in holders for name in each.slots if isinstance(name, str)}
+    return Sequence(tuple(Const(name) for name in sorted(names)), 'list')
+
+
+def _class_of(owner: Class | Instance) -> Value:
+    return owner.cls if isinstance(owner, Instance) else owner
+
+
+def _functions_of(owner: Value) -> set[str] | None:
+    if not isinstance(owner, (Class, Instance)):
+        return None
+    classes = [cls for cls in owner.mro if isinstance(cls, Class)]
+    return {
+        name
+        for cls in classes
+        for name, value in cls.slots.items()
+        if isinstance(value, Function) and value.binding != 'property'
+    }
 
 
 def _reference(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -223,6 +281,8 @@ FUNCTIONS: dict[str, Handler] = {
     'operator.methodcaller': _methodcaller,
     'operator.attrgetter': _attrgetter,
     'types.MethodType': _method_type,
+    'inspect.getmembers': _members,
+    'builtins.dir': _names,
     'weakref.ref': _reference,
     'weakref.WeakMethod': _reference,
     'weakref.proxy': _proxy,

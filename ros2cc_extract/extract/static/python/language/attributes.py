@@ -5,7 +5,11 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static.python.branching import open_tests
-from ros2cc_extract.extract.static.python.builtins import builtin_methods, generators
+from ros2cc_extract.extract.static.python.builtins import (
+    builtin_methods,
+    generators,
+    given_functions,
+)
 from ros2cc_extract.extract.static.python.builtins.code_behind import setters_behind
 from ros2cc_extract.extract.static.python.machine.machine import ENTRIES, Machine
 from ros2cc_extract.extract.static.python.machine.world import Cut, note_once
@@ -265,9 +269,12 @@ class Attributes(Machine):
             return value.function
         if name == 'func' and isinstance(value, Partial):
             return value.function
-        if isinstance(value, Function) and name in value.slots:
-            found: Value = value.slots[name]
+        held = value.function if isinstance(value, Bound) else value
+        if isinstance(held, Function) and name in held.slots:
+            found: Value = held.slots[name]
             return found
+        if isinstance(value, Function) and name == '__get__':
+            return Native(name, given_functions.method_of, value)
         if isinstance(value, Native) and value.name == 'builtins.type' and name == '__call__':
             return type_call(NONE)
         if isinstance(value, Native) and name == '__name__':
