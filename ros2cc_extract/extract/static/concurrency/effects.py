@@ -80,7 +80,7 @@ class Effects(Waits):
         if self.world.activity is not None and isinstance(owner, Instance):
             touch(self.world.activity, owner)
         cls = owner.cls if isinstance(owner, Instance) else owner
-        if not isinstance(cls, Class) or self._is_behaviour(owner, name):
+        if not isinstance(cls, Class) or self._is_behaviour(owner, name, kind, place):
             return
         attribute = unmangled(name, cls.name)
         shown = f'{collection_aliases.object_name(owner, cls)}.{attribute}'
@@ -283,8 +283,10 @@ class Effects(Waits):
     def _is_global(self, name: str, frame: Frame) -> bool:
         return _owner_of(name, frame) is None and name in frame.module.slots
 
-    def _is_behaviour(self, owner: Instance | Class, name: str) -> bool:
-        """Methods, entities and locks are no shared data."""
+    def _is_behaviour(
+        self, owner: Instance | Class, name: str, kind: AccessKind, place: Place
+    ) -> bool:
+        """Methods, entities and locks are no shared data, and neither is what has ``__get__``."""
         value = owner.slots.get(name)
         if value is None:
             cls = owner.cls if isinstance(owner, Instance) else owner
@@ -294,8 +296,10 @@ class Effects(Waits):
                 if isinstance(c, Class) and name in c.slots
             ]
             if not held:
-                return not _is_assigned(cls, name)
-            return isinstance(held[0], (Function, Native, Class))
+                is_stored = kind in (AccessKind.WRITE, AccessKind.UPDATE)
+                return not is_stored and not _is_assigned(cls, name)
+            is_code = isinstance(held[0], (Function, Native, Class))
+            return is_code or self.special_method(held[0], '__get__', place) is not None
         return any(
             isinstance(option, (Bound, Function, Native, Class))
             or (isinstance(option, Instance) and option.state is not None)

@@ -157,9 +157,12 @@ def _is_none(value: ast.expr | None) -> bool:
     return value is None or (isinstance(value, ast.Constant) and value.value is None)
 
 
+_OF_SET_UP = ('__init__', '__set_name__')
+
+
 def reassigned_attributes(cls: ast.ClassDef) -> Mapping[str, Sequence[ast.expr | None]]:
     """
-    Attributes of ``self`` that a method other than ``__init__`` assigns; see ``mangled``.
+    Attributes of ``self`` that a method assigns after the set-up of the object; see ``mangled``.
 
     With the text of each value, ``None`` for what is no plain assignment.
     """
@@ -170,7 +173,7 @@ def _reassigned_attributes(cls: ast.ClassDef) -> Mapping[str, Sequence[ast.expr 
     found: dict[str, list[ast.expr | None]] = {}
     for method in cls.body:
         is_function = isinstance(method, (ast.FunctionDef, ast.AsyncFunctionDef))
-        if not is_function or method.name == '__init__':  # type: ignore[attr-defined]
+        if not is_function or method.name in _OF_SET_UP:  # type: ignore[attr-defined]
             continue
         values = {
             id(target): part.value

@@ -7,12 +7,13 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static.python.branching import open_tests
-from ros2cc_extract.extract.static.python.builtins import special_methods
+from ros2cc_extract.extract.static.python.builtins import builtin_methods, code_behind
 from ros2cc_extract.extract.static.python.machine import path_facts
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
+from ros2cc_extract.extract.static.python.values.containers import Fields
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
     Const,
@@ -46,9 +47,9 @@ def boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
     for index, part in enumerate(node.values):
         before = machine.world.changing
         value = machine.evaluate(part, frame)
+        if index < len(node.values) - 1:
+            code_behind.asked_as(machine, value, 'bool', frame.place(part))
         values.append(value)
-        if part is not node.values[-1]:
-            special_methods.run(machine, value, special_methods.TRUTH, frame.place(part))
         machine.world.assume(path_facts.implied_by(value), holds=not stops_on)
         is_open = machine.world.changing != before
         last = index == len(node.values) - 1
@@ -95,17 +96,13 @@ def _open_condition(
     return machine.mystery('a condition', frame.place(node))
 
 
-_UNARY: dict[type[ast.unaryop], str] = {
-    ast.USub: '__neg__',
-    ast.UAdd: '__pos__',
-    ast.Invert: '__invert__',
-}
-
-
 def unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
     value = machine.evaluate(node.operand, frame)
+    by_code = code_behind.negated(machine, node.op, value, frame.place(node))
+    if by_code is not None:
+        return by_code
     if isinstance(node.op, ast.Not):
-        special_methods.run(machine, value, special_methods.TRUTH, frame.place(node))
+        code_behind.asked_as(machine, value, 'bool', frame.place(node))
         truth = machine.truth(value)
         if truth is not None:
             return Const(not truth)
@@ -113,7 +110,6 @@ def unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
         if answer is not None:
             return answer
         return _open_condition(machine, [value], lambda held: _negated(machine, held), node, frame)
-    special_methods.run(machine, value, (_UNARY[type(node.op)],), frame.place(node))
     folded = constant_folding.unary(node.op, value)
     default = by_default([value], partial(constant_folding.unary, node.op))
     if isinstance(value, Mystery) and default is not None:
@@ -151,6 +147,9 @@ def _is_answered_by_code(
     """Whether a method of one of them decides, whose effects are noted; its answer stays open."""
     is_of_items = isinstance(operator, (ast.In, ast.NotIn))
     owner, other = (right, left) if is_of_items else (left, right)
+    if is_of_items and isinstance(owner, Fields) and isinstance(other, Const):
+        builtin_methods.held_field(machine, owner, str(other.value), place)
+        return True
     name = _COMPARISONS.get(type(operator))
     method = machine.special_method(owner, name, place) if name is not None else None
     if method is not None:

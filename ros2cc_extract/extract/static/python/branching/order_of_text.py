@@ -16,15 +16,20 @@ from ros2cc_extract.source_locations import Place
 def stored_after(
     machine: Machine, behind: object, value: ast.expr, frame: Frame
 ) -> Iterator[None]:
-    """What is stored inside is stored where its value ends, if that was waited for."""
+    """
+    What is stored inside is stored where its value ends, if that was waited for.
+
+    Code that is called to store it begins there in any case.
+    """
     reading = machine.world.reading
-    before = reading.waited
+    before = reading.waited, reading.value_end
     has_waited = machine.last_wait() != behind
-    reading.waited = frame.end_of(value) if has_waited else None
+    reading.value_end = frame.end_of(value)
+    reading.waited = reading.value_end if has_waited else None
     try:
         yield
     finally:
-        reading.waited = before
+        reading.waited, reading.value_end = before
 
 
 class Asked:

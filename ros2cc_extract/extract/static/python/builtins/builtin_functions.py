@@ -7,10 +7,11 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
-from ros2cc_extract.extract.static.python.builtins import builtin_methods
+from ros2cc_extract.extract.static.python.builtins import builtin_methods, given_functions
+from ros2cc_extract.extract.static.python.builtins.code_behind import asked_as
+from ros2cc_extract.extract.static.python.builtins.given_functions import called_at_once
 from ros2cc_extract.extract.static.python.builtins.map_and_zip import filtered, mapped, zipped
 from ros2cc_extract.extract.static.python.builtins.methods_by_name import methods_named_like
-from ros2cc_extract.extract.static.python.builtins.properties import made_property
 from ros2cc_extract.extract.static.python.builtins.sorting import identity, in_order
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -22,7 +23,13 @@ from ros2cc_extract.extract.static.python.objects.iterators import iterator
 from ros2cc_extract.extract.static.python.objects.memoization import keep_results
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
-from ros2cc_extract.extract.static.python.values.containers import Collection, Mapping, Sequence
+from ros2cc_extract.extract.static.python.values.containers import (
+    Collection,
+    Fields,
+    Generator,
+    Mapping,
+    Sequence,
+)
 from ros2cc_extract.extract.static.python.values.values import (
     ABSENT,
     NONE,
@@ -105,6 +112,8 @@ def _converted(kind: str) -> Handler:
 
 
 def _iter(machine: Machine, receiver: Value, call: Call) -> Value:
+    if len(call.args) == 1 and isinstance(call.args[0], Generator):
+        return call.args[0]
     return iterator(call) or _converted('list')(machine, receiver, call)
 
 
@@ -115,7 +124,9 @@ def _set(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _reversed(machine: Machine, receiver: Value, call: Call) -> Value:
-    items = loops.items_in(machine, call.args[0] if call.args else NONE, call.place)
+    given = call.args[0] if call.args else NONE
+    asked_as(machine, given, 'reversed', call.place)
+    items = loops.items_in(machine, given, call.place)
     return Sequence(items.known[::-1], 'list', items.others, items.many)
 
 
@@ -196,6 +207,7 @@ def _letter(function: Callable[[Any], object]) -> Handler:
 def _scalar(kind: type) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         value = call.args[0] if call.args else Const(kind())
+        asked_as(machine, value, kind.__name__, call.place)
         if isinstance(value, Const) and len(call.args) < 2:
             try:
                 return Const(kind(value.value))
@@ -231,11 +243,16 @@ def _of_all(*, stops_on: bool) -> Handler:
     return handler
 
 
+def _key_of(call: Call) -> dict[str, Value]:
+    return {name: value for name, value in call.keywords.items() if name == 'key'}
+
+
 def _extreme(act: str) -> Handler:
     def handler(machine: Machine, receiver: Value, call: Call) -> Value:
         values = call.args
         if len(values) == 1:
             values = list(machine.items_of(values[0], call.place)[0])
+        called_at_once(machine, Call(call.place, [], _key_of(call)))
         numbers = [value.value for value in values if isinstance(value, Const)]
         if numbers and len(numbers) == len(values) and not call.keywords and not call.more:
             try:
@@ -273,7 +290,10 @@ def _getattr(machine: Machine, receiver: Value, call: Call) -> Value:
 
 def _setattr(machine: Machine, receiver: Value, call: Call) -> Value:
     owner = call.args[0] if call.args else NONE
-    return builtin_methods.set_attribute(machine, owner, Call(call.place, call.args[1:]))
+    own = machine.special_method(owner, '__setattr__', call.place)
+    if own is not None:
+        return machine.call(own, Call(call.place, call.args[1:]))
+    return builtin_methods.set_attribute_of(machine, receiver, call)
 
 
 def _hasattr(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -295,6 +315,13 @@ def _isinstance(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(value, Const) and classes and all(isinstance(cls, Class) for cls in classes):
         return Const(False)
     return machine.mystery('isinstance', call.place, 'isinstance(…)')
+
+
+def _vars(machine: Machine, receiver: Value, call: Call) -> Value:
+    owner = call.args[0] if call.args else NONE
+    if isinstance(owner, Instance):
+        return Fields(owner)
+    return machine.mystery('vars', call.place, 'vars(…)')
 
 
 def _callable(machine: Machine, receiver: Value, call: Call) -> Value:
@@ -320,6 +347,8 @@ def _type(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def _print(machine: Machine, receiver: Value, call: Call) -> Value:
+    for each in call.args:
+        asked_as(machine, each, 'str', call.place)
     return NONE
 
 
@@ -354,30 +383,6 @@ def _same(machine: Machine, receiver: Value, call: Call) -> Value:
     return Native('decorator', _same)
 
 
-def _enter_on_stack(machine: Machine, receiver: Value, call: Call) -> Value:
-    """``stack.enter_context(c)`` enters ``c`` until the stack's own block is left."""
-    entered = call.argument(0, 'cm')
-    return machine.enter_context(entered, call.place) if entered is not None else NONE
-
-
-def _bound_method(machine: Machine, receiver: Value, call: Call) -> Value:
-    """``types.MethodType(function, owner)``."""
-    if len(call.args) != 2 or not isinstance(call.args[0], Function):
-        return machine.mystery('a method that is not followed', call.place, 'MethodType(…)')
-    return Bound(call.args[1], call.args[0])
-
-
-def _namespace(machine: Machine, receiver: Value, call: Call) -> Value:
-    """``types.SimpleNamespace(name=value)``."""
-    if isinstance(receiver, Instance):
-        for name, value in call.keywords.items():
-            machine.store.write(receiver, name, value)
-    return NONE
-
-
-_EXIT_STACK = LibraryClass(init=_print, methods={'enter_context': _enter_on_stack})
-
-
 def _deque(machine: Machine, receiver: Value, call: Call) -> Value:
     return _converted('deque')(machine, receiver, Call(call.place, call.args[:1]))
 
@@ -385,6 +390,7 @@ def _deque(machine: Machine, receiver: Value, call: Call) -> Value:
 def _defaultdict(machine: Machine, receiver: Value, call: Call) -> Value:
     made = Mapping({}, Unknown('defaultdict', call.place) if call.args else None)
     made.fills = bool(call.args)
+    made.slots['factory'] = call.args[0] if call.args else NONE
     return made
 
 
@@ -432,11 +438,11 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.hasattr': _hasattr,
     'builtins.isinstance': _isinstance,
     'builtins.callable': _callable,
+    'builtins.vars': _vars,
     'builtins.super': _super,
     'builtins.map': mapped,
     'builtins.filter': filtered,
     'builtins.type': _type,
-    'builtins.property': made_property,
     'builtins.print': _print,
     'builtins.exit': _exit,
     'builtins.quit': _exit,
@@ -474,14 +480,12 @@ _CLOCKS = ('time', 'monotonic', 'perf_counter', 'process_time', 'thread_time')
 
 TABLE = Library(
     classes={
-        'builtins.object': LibraryClass(init=_print),
-        'contextlib.ExitStack': _EXIT_STACK,
-        'contextlib.AsyncExitStack': _EXIT_STACK,
-        'types.SimpleNamespace': LibraryClass(init=_namespace),
+        'builtins.object': LibraryClass(init=lambda *_: NONE),
+        **given_functions.CLASSES,
     },
     functions={
         **_FUNCTIONS,
-        'types.MethodType': _bound_method,
+        **given_functions.FUNCTIONS,
         'importlib.import_module': _import_module,
     },
     constants={

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from ros2cc_extract.extract.static.python.builtins.function_takers import sort
+from ros2cc_extract.extract.static.python.builtins.given_functions import called_at_once
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.escape import note_kept
 from ros2cc_extract.extract.static.python.values import constant_folding
-from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.python.values.containers import Fields, Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -24,7 +24,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     choice,
     options_of,
 )
-from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 
 _TEXT_LIMIT = 100_000
 _COPIED_A_STEP = 64
@@ -64,10 +64,75 @@ def set_attribute(machine: Machine, receiver: Value, call: Call) -> Value:
     name, value = (*call.args, NONE, NONE)[:2]
     if isinstance(receiver, (Instance, Class)) and isinstance(name, Const):
         machine.name_value(value, str(name.value))
-        machine.world.reading.stored = value
-        machine.note_attribute(receiver, str(name.value), AccessKind.WRITE, call.place)
-        machine.store.write(receiver, str(name.value), value)
+        machine.set_attribute(receiver, str(name.value), value, call.place)
     return NONE
+
+
+def set_attribute_of(machine: Machine, _receiver: Value, call: Call) -> Value:
+    """``object.__setattr__(owner, name, value)``."""
+    owner = call.args[0] if call.args else NONE
+    return set_attribute(machine, owner, Call(call.place, call.args[1:]))
+
+
+def field_method(value: Fields, name: str) -> Value | None:
+    """A method of ``owner.__dict__``, ``None`` when it is not followed."""
+    handler = _FIELDS.get(name)
+    return Native(name, handler, value) if handler else None
+
+
+def field(machine: Machine, fields: Fields, key: Value, place: Place) -> Value | None:
+    """``owner.__dict__[key]``; ``None`` where nothing of that name is known."""
+    if not isinstance(key, Const):
+        return machine.mystery('attribute with a computed name', place, '__dict__')
+    name = str(key.value)
+    held = held_field(machine, fields, name, place)
+    return machine.attribute_as_of_now(fields.owner, name, held, place) if held else None
+
+
+def held_field(machine: Machine, fields: Fields, name: str, place: Place) -> Value | None:
+    """What is known under a name of ``owner.__dict__``, which is asked for it."""
+    machine.note_attribute(fields.owner, name, AccessKind.READ, place)
+    held = fields.owner.slots.get(name)
+    if isinstance(held, Value):
+        return held
+    if machine.world.in_callback:
+        machine.world.lacking.append((fields.owner, name))
+    return None
+
+
+def _get_field(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Fields)
+    found = field(machine, receiver, call.args[0] if call.args else NONE, call.place)
+    default = call.argument(1) or NONE
+    return found or default
+
+
+def _set_field_once(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Fields)
+    key, value = (*call.args, NONE, NONE)[:2]
+    found = field(machine, receiver, key, call.place)
+    if found is None and isinstance(key, Const):
+        machine.store_field(receiver.owner, str(key.value), value, call.place)
+    return found or value
+
+
+def _update_fields(machine: Machine, receiver: Value, call: Call) -> Value:
+    assert isinstance(receiver, Fields)
+    given: dict[Value, Value] = {}
+    for argument in call.args:
+        given |= argument.entries if isinstance(argument, Mapping) else {}
+    given |= {Const(name): value for name, value in call.keywords.items()}
+    for key, value in given.items():
+        if isinstance(key, Const):
+            machine.store_field(receiver.owner, str(key.value), value, call.place)
+    return NONE
+
+
+_FIELDS: dict[str, Handler] = {
+    'get': _get_field,
+    'setdefault': _set_field_once,
+    'update': _update_fields,
+}
 
 
 def _text_method(name: str) -> Handler:
@@ -193,6 +258,12 @@ def _copy(machine: Machine, receiver: Value, call: Call) -> Value:
     return Mapping(dict(receiver.entries), receiver.others, receiver.many)
 
 
+def _sort(machine: Machine, receiver: Value, call: Call) -> Value:
+    key = call.argument(None, 'key')
+    called_at_once(machine, Call(call.place, [key] if key is not None else []))
+    return NONE
+
+
 def _unordered(machine: Machine, receiver: Value, call: Call) -> Value:
     """``remove`` and the like: what is left is not followed item by item."""
     if isinstance(receiver, Sequence) and call.args and call.args[0] in receiver.items:
@@ -289,7 +360,7 @@ _SEQUENCE: dict[str, Handler] = {
     'copy': _copy,
     'remove': _unordered,
     'discard': _unordered,
-    'sort': sort,
+    'sort': _sort,
     'reverse': lambda machine, receiver, call: NONE,
 }
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ros2cc_extract.extract.static.python.builtins.given_functions import called_at_once
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.values.containers import Sequence
@@ -37,6 +38,8 @@ def in_order(machine: Machine, receiver: Value, call: Call) -> Value:
     if items.others is None and not items.many and len(known) > 1:
         keys = [_key(machine, item, call) for item in known]
         known = _by_keys(known, keys, call) or _as_made(known)
+    elif 'key' in call.keywords:
+        called_at_once(machine, Call(call.place, [call.keywords['key']]))
     return Sequence(known, 'list', items.others, items.many)
 
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import narrowed_types
-from ros2cc_extract.extract.static.python.language import code_behind
+from ros2cc_extract.extract.static.python.builtins import code_behind
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -17,12 +17,13 @@ from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.element_keys import note_item
 from ros2cc_extract.extract.static.python.objects.escape import note_kept
 from ros2cc_extract.extract.static.python.values.assumed_defaults import items_by_default
-from ros2cc_extract.extract.static.python.values.containers import Mapping
+from ros2cc_extract.extract.static.python.values.containers import Fields, Mapping
 from ros2cc_extract.extract.static.python.values.containers import Sequence as Items
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
     Choice,
+    Const,
     Function,
     Instance,
     Module,
@@ -85,25 +86,43 @@ class Assignments(Machine):
         place = frame.place(target)
         options = owner.options if isinstance(owner, Choice) else (owner,)
         for option in options:
-            setters = code_behind.setters_of(option, name)
+            setters = code_behind.setters_of(self, option, name)
             for setter in setters:
                 code_behind.assign(self, setter, value, place)
-            if setters:
-                continue
-            old = getattr(option, 'slots', {}).get(name)
-            if old is not None:
-                self.note_attribute(option, name, AccessKind.WRITE, place)
-            if isinstance(option, (Instance, Module, Function)) or hasattr(option, 'mro'):
-                self._note_same_unknown(old, value)
-                new = value if len(options) == 1 or old is None else choice([old, value])
-                self.store.write(option, name, new)  # type: ignore[arg-type]
-                self.note_held(option, name, value)
-                self.world.stored.setdefault((option, name), {})[place] = value
-                is_new = self.world.when is not When.START and old != value
-                if is_new or self.world.is_beside_others:
-                    self.world.stored_late.add((option, name))
-            if old is None:
-                self.note_attribute(option, name, AccessKind.WRITE, place)
+            if not setters:
+                self._store_attribute(option, name, value, place, is_sure=len(options) == 1)
+
+    def set_attribute(self, owner: Value, name: str, value: Value, place: Place) -> None:
+        """``object.__setattr__(owner, name, value)``."""
+        setters = code_behind.setters_behind(self, owner, name)
+        for setter in setters:
+            code_behind.assign(self, setter, value, place)
+        if not setters:
+            self.store_field(owner, name, value, place)
+
+    def store_field(self, owner: Value, name: str, value: Value, place: Place) -> None:
+        """``owner.__dict__[name] = value``."""
+        self.world.reading.stored = value
+        _hint(value, name)
+        self._store_attribute(owner, name, value, place, is_sure=True)
+
+    def _store_attribute(
+        self, owner: Value, name: str, value: Value, place: Place, *, is_sure: bool
+    ) -> None:
+        old = getattr(owner, 'slots', {}).get(name)
+        if old is not None:
+            self.note_attribute(owner, name, AccessKind.WRITE, place)
+        if isinstance(owner, (Instance, Module, Function)) or hasattr(owner, 'mro'):
+            self._note_same_unknown(old, value)
+            new = value if is_sure or old is None else choice([old, value])
+            self.store.write(owner, name, new)  # type: ignore[arg-type]
+            self.note_held(owner, name, value)
+            self.world.stored.setdefault((owner, name), {})[place] = value
+            is_new = self.world.when is not When.START and old != value
+            if is_new or self.world.is_beside_others:
+                self.world.stored_late.add((owner, name))
+        if old is None:
+            self.note_attribute(owner, name, AccessKind.WRITE, place)
 
     def _note_same_unknown(self, old: Any, new: Value) -> None:
         """One attribute holds one thing: unknown callers pass the same to all methods."""
@@ -125,6 +144,9 @@ class Assignments(Machine):
         method = self.special_method(owner, '__setitem__', frame.place(target))
         if method is not None:
             self.call(method, Call(frame.place(target), [key, value]))
+            return
+        if isinstance(owner, Fields) and isinstance(key, Const):
+            self.store_field(owner.owner, str(key.value), value, frame.place(target))
             return
         self.world.refilling = loops.has_key(owner, key)
         self.note_update(target.value, frame, AccessKind.UPDATE_IN_PLACE)

@@ -5,13 +5,23 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static.python.branching import open_tests
-from ros2cc_extract.extract.static.python.builtins import builtin_methods
+from ros2cc_extract.extract.static.python.builtins import (
+    builtin_methods,
+    generators,
+    given_functions,
+)
+from ros2cc_extract.extract.static.python.builtins.code_behind import setters_behind
 from ros2cc_extract.extract.static.python.machine.machine import ENTRIES, Machine
 from ros2cc_extract.extract.static.python.machine.world import Cut, note_once
 from ros2cc_extract.extract.static.python.objects import subclass_registry
 from ros2cc_extract.extract.static.python.objects.metaclasses import NEW, of_metaclass, type_call
 from ros2cc_extract.extract.static.python.objects.unset_globals import UNSET
-from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.python.values.containers import (
+    Fields,
+    Generator,
+    Mapping,
+    Sequence,
+)
 from ros2cc_extract.extract.static.python.values.enumerations import Member
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -95,6 +105,8 @@ class Attributes(Machine):
         if isinstance(value, Library):
             if name == '__new__':
                 return NEW
+            if (value.name, name) == ('builtins.object', '__setattr__'):
+                return Native(name, builtin_methods.set_attribute_of, NONE)
             member = self.library_member(value, None, name, place)
             return member or self.library(f'{value.name}.{name}')
         if isinstance(value, Super):
@@ -107,6 +119,10 @@ class Attributes(Machine):
             if method is not None:
                 return self._of_member(value, value.value, method, place)
             return value.value.attribute(name, place)
+        if isinstance(value, Fields):
+            return builtin_methods.field_method(value, name)
+        if isinstance(value, Generator):
+            return generators.method(name, value)
         if isinstance(value, (Sequence, Mapping, Const)):
             return builtin_methods.method(value, name)
         if isinstance(value, Mystery):
@@ -114,15 +130,19 @@ class Attributes(Machine):
         return self._of_callable(value, name)
 
     def _of_instance(self, value: Instance, name: str, place: Place) -> Value | None:
+        if name in self.world.described and setters_behind(self, value, name):
+            return self._in_order(value.mro, value, name, place)
         if name in value.slots and isinstance(value.slots[name], Value):
-            return self._as_of_now(value, name, value.slots[name], place)
+            return self.attribute_as_of_now(value, name, value.slots[name], place)
         if name == '__class__':
             return value.cls
-        if name == '__setattr__':
+        if name == '__dict__':
+            return Fields(value)
+        if name == '__setattr__' and not any(_defines(cls, name) for cls in value.mro):
             return Native(name, builtin_methods.set_attribute, value)
         found = self._in_order(value.mro, value, name, place)
         if isinstance(found, Const):
-            return self._as_of_now(value, name, found, place)
+            return self.attribute_as_of_now(value, name, found, place)
         if not isinstance(found, (Bound, Native)):
             open_tests.note_attribute(self, value, name, found)
         return found or self._handed_on(value, name, place)
@@ -145,7 +165,7 @@ class Attributes(Machine):
         finally:
             self.world.looking = before
 
-    def _as_of_now(self, owner: Instance, name: str, held: Value, place: Place) -> Value:
+    def attribute_as_of_now(self, owner: Instance, name: str, held: Value, place: Place) -> Value:
         """
         What an attribute holds once the set-up is over.
 
@@ -178,6 +198,8 @@ class Attributes(Machine):
         return self.member_of_unknown_base(order, receiver, name, place)
 
     def _bind(self, member: Value, receiver: Value, place: Place) -> Value:
+        if isinstance(member, Instance) and member.cls is not receiver:
+            return self._described(member, receiver, place)
         if not isinstance(member, Function):
             return member
         if member.binding == 'static':
@@ -198,6 +220,16 @@ class Attributes(Machine):
         if method.binding == 'static':
             return method
         return Bound(member.cls if method.binding == 'class' else value, method)
+
+    def _described(self, member: Instance, receiver: Value, place: Place) -> Value:
+        """An object of the class: where it has ``__get__``, what that gives."""
+        getter = self.special_method(member, '__get__', place)
+        if getter is None:
+            return member
+        if not isinstance(receiver, Instance):
+            return self.call(getter, Call(place, [NONE, receiver]))
+        call = Call(place, [receiver, receiver.cls])
+        return self._called_by_looking(receiver, member.hint or '', getter, call)
 
     def _of_class(self, value: Class, name: str, place: Place) -> Value | None:
         if name in ('__name__', '__qualname__'):
@@ -233,6 +265,8 @@ class Attributes(Machine):
         behind = order[order.index(value.owner) + 1 :] if value.owner in order else ()
         if name == '__new__' and not any(_defines(cls, name) for cls in behind):
             return NEW
+        if name == '__setattr__' and not any(_defines(cls, name) for cls in behind):
+            return Native(name, builtin_methods.set_attribute, receiver)
         return self._in_order(behind, receiver, name, place)
 
     def _of_callable(self, value: Value, name: str) -> Value | None:
@@ -245,9 +279,12 @@ class Attributes(Machine):
             return value.function
         if name == 'func' and isinstance(value, Partial):
             return value.function
-        if isinstance(value, Function) and name in value.slots:
-            found: Value = value.slots[name]
+        held = value.function if isinstance(value, Bound) else value
+        if isinstance(held, Function) and name in held.slots:
+            found: Value = held.slots[name]
             return found
+        if isinstance(value, Function) and name == '__get__':
+            return Native(name, given_functions.method_of, value)
         if isinstance(value, Native) and value.name == 'builtins.type' and name == '__call__':
             return type_call(NONE)
         if isinstance(value, Native) and name == '__name__':

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static.program.text_queries import is_test, mangled
-from ros2cc_extract.extract.static.python.builtins.properties import ACCESSORS, with_accessor
+from ros2cc_extract.extract.static.python.builtins import generators, given_functions
+from ros2cc_extract.extract.static.python.builtins.code_behind import ACCESSORS, with_accessor
 from ros2cc_extract.extract.static.python.language import plain_data_calls, recursive_loops
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError, CannotCallError, Frame
@@ -21,7 +22,7 @@ from ros2cc_extract.extract.static.python.objects import memoization, subclass_r
 from ros2cc_extract.extract.static.python.objects.metaclasses import bind_by_name, of_metaclass
 from ros2cc_extract.extract.static.python.values import enumerations
 from ros2cc_extract.extract.static.python.values.argument_binding import fits, sources_of
-from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.python.values.containers import Generator, Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.method_resolution import (
     cost_of_order,
     resolution_order,
@@ -78,6 +79,7 @@ class Calls(Machine):
 
     def unknown_call(self, function: Value, call: Call) -> Value:
         """The result of calling something that cannot be followed."""
+        generators.run_given(self, function, call)
         self.library_call(function, call)
         if isinstance(function, Mystery):
             self.note_unknown_call(function, call)
@@ -86,9 +88,11 @@ class Calls(Machine):
         return self.mystery(f'result of {name}, which is not followed', call.place, name)
 
     def call_function(self, function: Function, call: Call) -> Value:
-        """Run a scanned function; a coroutine function only makes its coroutine."""
+        """Run a scanned function; that of a coroutine or generator only makes it."""
         if function.is_coroutine:
             return Coroutine(function, call)
+        if generators.is_generator(function):
+            return Generator(function, call)
         run = partial(self.run_shortly, function)
         if memoization.is_kept(function):
             return memoization.recall(self, function, call, run)
@@ -329,8 +333,17 @@ class Calls(Machine):
             if name != '__class_body__':
                 self.store.write(cls, mangled(name, cls.name), value)
                 bind_by_name(name, value)
+                self._name_described(cls, name, value)
         self._tell_base(cls, node, frame)
         return cls
+
+    def _name_described(self, cls: Class, name: str, value: Value) -> None:
+        """Python tells each object of a class body its name; it may stand for an attribute."""
+        naming = self.special_method(value, '__set_name__', cls.place)
+        if naming is not None:
+            self.call(naming, Call(cls.place, [cls, Const(name)]))
+        if self.special_method(value, '__set__', cls.place) is not None:
+            self.world.described.add(name)
 
     def _tell_base(self, cls: Class, node: ast.ClassDef, frame: Frame) -> None:
         """``__init_subclass__`` of a base class is called with each class that is made of it."""
@@ -384,6 +397,7 @@ class Calls(Machine):
         if not isinstance(turn, Bound) or not isinstance(turn.function, Function):
             return None
         given = self.call(turn, Call(place))
+        generators.run(self, given, place)
         is_whole = isinstance(given, Sequence) and not given.others
         return given.items if is_whole and isinstance(given, Sequence) and given.items else None
 
@@ -446,10 +460,13 @@ def _call_partial(machine: Calls, function: Partial, call: Call) -> Value:
 
 
 def _call_native(machine: Calls, function: Native, call: Call) -> Value:
+    generators.run_given(machine, function, call)
     return function.handler(machine, function.receiver, call)
 
 
 def _call_library(machine: Calls, function: Library, call: Call) -> Value:
+    generators.run_given(machine, function, call)
+    given_functions.run_by(machine, function, call)
     return machine.call_library(function, call)
 
 

@@ -18,7 +18,7 @@ from ros2cc_extract.extract.static.python.branching import (
     open_tests,
 )
 from ros2cc_extract.extract.static.python.branching.order_of_text import stored_after
-from ros2cc_extract.extract.static.python.language import code_behind
+from ros2cc_extract.extract.static.python.builtins import code_behind
 from ros2cc_extract.extract.static.python.language.control_flow import (
     run_for,
     run_if,

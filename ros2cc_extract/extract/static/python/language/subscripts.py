@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 
+from ros2cc_extract.extract.static.python.builtins import builtin_methods
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
@@ -14,7 +15,7 @@ from ros2cc_extract.extract.static.python.values.assumed_defaults import (
     default_of,
     items_by_default,
 )
-from ros2cc_extract.extract.static.python.values.containers import Mapping, Sequence
+from ros2cc_extract.extract.static.python.values.containers import Fields, Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -22,9 +23,11 @@ from ros2cc_extract.extract.static.python.values.values import (
     Choice,
     Class,
     Const,
+    Function,
     Instance,
     Library,
     Mystery,
+    Partial,
     Value,
     choice,
     options_of,
@@ -72,6 +75,8 @@ def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame
         if isinstance(key, Mystery) and next(reversed(owner.entries), None) is key:
             return owner.entries[key]
         one_of_all = None if loops.is_key(key) else loops.any_of(owner)
+        if owner.fills:
+            _make_missing(machine, owner, node, frame)
         reason = owner.rest.reason if owner.rest else 'key that could not be followed'
         return one_of_all or machine.mystery(reason, place, node)
     if isinstance(owner, Sequence):
@@ -88,6 +93,9 @@ def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame
         return constant_folding.subscript(owner, key) or machine.mystery('bad subscript', place)
     if isinstance(owner, (Class, Library)):
         return owner
+    if isinstance(owner, Fields):
+        held = builtin_methods.field(machine, owner, key, place)
+        return held or machine.mystery('attribute that could not be followed', place, node)
     if isinstance(owner, Instance) and isinstance(owner.cls, Class):
         method = machine.attribute(owner, '__getitem__', place)
         if isinstance(method, Bound):
@@ -98,6 +106,14 @@ def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame
         return by_default[index]
     reason = owner.unknown.reason if isinstance(owner, Mystery) else 'item of an unknown value'
     return machine.mystery(reason, place, node)
+
+
+def _make_missing(machine: Machine, owner: Mapping, node: ast.Subscript, frame: Frame) -> None:
+    """``collections.defaultdict``: a function of the program may be asked for the item."""
+    factory = owner.slots.get('factory')
+    if isinstance(factory, (Function, Bound, Partial)):
+        place = frame.place(node)
+        machine.branch([lambda: machine.call(factory, Call(place)), lambda: NONE], place)
 
 
 def _slice(machine: Machine, owner: Sequence, node: ast.Slice, frame: Frame) -> Value:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import ast
 
+from ros2cc_extract.extract.static.python.builtins import generators
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.values.containers import Sequence
+from ros2cc_extract.extract.static.python.values.containers import Generator, Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -49,7 +50,10 @@ class Blocks(Machine):
         """
         if isinstance(value, Coroutine):
             value = self.run_if_coroutine(value, place)
+        generators.run(self, value, place)
         made, held = self.world.yielding or (None, ())
+        if isinstance(value, Generator):
+            made, held = value, value.slots.get('held', ())
         if value is not made or not isinstance(value, Sequence):
             return value
         self.world.held = tuple(dict.fromkeys((*self.world.held, *held)))

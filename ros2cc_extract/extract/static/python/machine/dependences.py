@@ -59,6 +59,7 @@ class Reading:
     :param taken_from: arguments of the function that what is stored now was taken from.
     :param named: what the source names in that value.
     :param waited: where the value ends that is stored now, if it is waited for.
+    :param value_end: where the value ends that is stored now.
     :param calls: how many calls there were.
     :param tested_at: how many there were before a test, by its place.
     :param refusing: names because of which a goal was turned down.
@@ -82,6 +83,7 @@ class Reading:
     taken_from: frozenset[str] = frozenset()
     named: frozenset[str] = frozenset()
     waited: Place | None = None
+    value_end: Place | None = None
     down: dict[tuple[Place, int], frozenset[str]] = field(default_factory=dict)
     found: dict[tuple[Place, int], dict[str, str]] = field(default_factory=dict)
     asked: dict[Place, Asked] = field(default_factory=dict)

@@ -95,8 +95,20 @@ class Machine(Observer, LibraryHooks, ABC):
         """Store ``value`` in a name, attribute, item or pattern of them."""
 
     @abstractmethod
+    def set_attribute(self, owner: Value, name: str, value: Value, place: Place) -> None:
+        """``object.__setattr__(owner, name, value)``."""
+
+    @abstractmethod
+    def store_field(self, owner: Value, name: str, value: Value, place: Place) -> None:
+        """``owner.__dict__[name] = value``."""
+
+    @abstractmethod
     def attribute(self, value: Value, name: str, place: Place, text: str | ast.expr = '') -> Value:
         """``value.name``."""
+
+    @abstractmethod
+    def attribute_as_of_now(self, owner: Instance, name: str, held: Value, place: Place) -> Value:
+        """What an attribute holds once the set-up is over."""
 
     @abstractmethod
     def has_attribute(self, value: Value, name: str) -> bool | None:

@@ -137,6 +137,7 @@ class World:
     :param literals: constants that are stored by their own text, by the place they are stored to.
     :param handed_over: collections that such code was given.
     :param doubted: classes and functions behind code that is not scanned, and what that is.
+    :param described: attributes for which some class has an object with a method of its own.
     :param doubted_calls: how often these were called.
     """
 
@@ -212,6 +213,7 @@ class World:
     doubted_calls: Counter[Value] = field(default_factory=Counter)
     activity: Doer | None = None
     settled_now: frozenset[tuple[Instance, str]] = frozenset()
+    described: set[str] = field(default_factory=set)
 
     @property
     def in_callback(self) -> bool:

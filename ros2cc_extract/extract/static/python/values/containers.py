@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.python.values.values import Heaped, Mystery, Value, options_of
+from ros2cc_extract.extract.static.python.values.values import (
+    Call,
+    Function,
+    Heaped,
+    Instance,
+    Mystery,
+    Value,
+    options_of,
+)
 from ros2cc_extract.source_locations import Unknown
 
 
@@ -70,6 +78,22 @@ class Sequence(Collection):
         return tuple(self.slots['items'])
 
 
+class Generator(Sequence):
+    """
+    What a generator function gives; its items are known once its body has run.
+
+    Slots: ``taker`` (for whom it has run last), ``held`` (the locks that it keeps while it
+    yields), and those of a sequence.
+    """
+
+    __slots__ = ('call', 'function')
+
+    def __init__(self, function: Function, call: Call) -> None:
+        super().__init__((), 'generator', Unknown('nothing was taken from it yet', call.place))
+        self.function = function
+        self.call = call
+
+
 class Mapping(Collection):
     """
     A dictionary; slots: ``entries`` (key -> value), and those of a collection, by key.
@@ -94,6 +118,15 @@ class Mapping(Collection):
         """The known entries, in order; never to be changed in place."""
         entries: dict[Value, Value] = self.slots['entries']
         return entries
+
+
+class Fields(Value):
+    """``owner.__dict__``: the attributes of an object by name, past its own methods for them."""
+
+    __slots__ = ('owner',)
+
+    def __init__(self, owner: Instance) -> None:
+        self.owner = owner
 
 
 def collection_class(value: Collection) -> str:

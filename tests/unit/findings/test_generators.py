@@ -1,0 +1,93 @@
+"""The body of a generator runs in the code that takes items from it, wherever it was made."""
+
+from __future__ import annotations
+
+import pytest
+
+from ros2cc_extract.extract.static.api import scan_text
+from ros2cc_extract.spec.model import Callback, Spec
+
+TOUR = """
+import itertools
+import threading
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Empty
+
+class Runner:
+    def __init__(self, steps):
+        self.steps = steps
+
+    def step(self):
+        next(self.steps, None)
+
+class Tour(Node):
+    def __init__(self):
+        super().__init__('tour')
+        self.gone = threading.Event()
+        MADE
+        self.create_subscription(Empty, 'tick', self.on_tick, 10)
+        self.create_subscription(Empty, 'gone', self.on_gone, 10)
+
+    def script(self):
+        yield 'begin'
+        yield from self.legs()
+
+    def legs(self):
+        self.gone.wait()
+        self.legs_done = True
+        yield 'end'
+
+    def on_tick(self, msg):
+        TAKEN
+
+    def on_gone(self, msg):
+        self.gone.set()
+
+rclpy.init()
+rclpy.spin(Tour())
+"""
+
+
+def unit_of(made: str, taken: str) -> Spec:
+    (unit,) = scan_text(TOUR.replace('MADE', made).replace('TAKEN', taken)).units
+    return unit
+
+
+def on_tick(unit: Spec) -> Callback:
+    return next(each for each in unit.callbacks if each.function_name == 'on_tick')
+
+
+@pytest.mark.parametrize(
+    ('made', 'taken'),
+    [
+        ('self.steps = self.script()', 'next(self.steps)'),
+        ('self.steps = iter(self.script())', 'next(self.steps, None)'),
+        ('self.steps = self.script()', 'self.steps.send(None)'),
+        ('self.steps = self.script()', 'for step in self.steps:\n            break'),
+        ('self.steps = [self.script()]', 'next(self.steps[0])'),
+        ('self.steps = []\n        self.steps.append(self.script())', 'next(self.steps[0])'),
+        ("self.steps = {'tour': self.script()}", "next(self.steps['tour'])"),
+        ('self.runner = Runner(self.script())', 'self.runner.step()'),
+        ('pass', 'list(self.script())'),
+        ('pass', 'any(step for step in self.script())'),
+        ('pass', 'a, *others = self.script()'),
+    ],
+)
+def test_the_code_that_takes_items_waits(made: str, taken: str) -> None:
+    unit = unit_of(made, taken)
+    tick = on_tick(unit)
+    assert [block.call for block in tick.blocking] == ['Event.wait']
+    assert 'Tour.legs_done' in [write.name for write in tick.writes]
+    assert not unit.set_up
+
+
+def test_a_generator_of_which_nothing_is_taken_does_nothing_there() -> None:
+    unit = unit_of('pass', 'self.script()')
+    assert on_tick(unit).blocking == ()
+
+
+def test_the_set_up_waits_where_it_takes_the_items_itself() -> None:
+    unit = unit_of('self.steps = self.script(); next(self.steps)', 'print(self.gone)')
+    assert [block.call for block in unit.set_up] == ['Event.wait']
+    assert on_tick(unit).blocking == ()
