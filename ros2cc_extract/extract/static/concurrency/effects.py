@@ -296,6 +296,8 @@ class Effects(Waits):
             if not held:
                 return not _is_assigned(cls, name)
             return isinstance(held[0], (Function, Native, Class))
+        if _is_taken_away(owner, name):
+            return False
         return any(
             isinstance(option, (Bound, Function, Native, Class))
             or (isinstance(option, Instance) and option.state is not None)
@@ -472,10 +474,21 @@ def _holds_lock(owner: Instance) -> bool:
     )
 
 
-def _is_assigned(cls: Value, name: str) -> bool:
+def _is_assigned(cls: Value | None, name: str) -> bool:
     """Whether a method assigns the attribute that was not made yet."""
+    return any(True for _ in _assigned(cls, name))
+
+
+def _is_taken_away(owner: Value, name: str) -> bool:
+    """Whether a method stores ``None`` where an entity, a lock or a function may be."""
+    cls = owner.cls if isinstance(owner, Instance) else owner
     return any(
-        name in reassigned_attributes(base.node)
-        for base in getattr(cls, 'mro', ())
-        if isinstance(base, Class)
+        isinstance(text, ast.Constant) and text.value is None for text in _assigned(cls, name)
     )
+
+
+def _assigned(cls: Value | None, name: str) -> Iterator[ast.expr | None]:
+    """The texts of what methods other than ``__init__`` assign to an attribute."""
+    for base in getattr(cls, 'mro', ()):
+        if isinstance(base, Class):
+            yield from reassigned_attributes(base.node).get(name, ())
