@@ -104,6 +104,8 @@ class Assignments(Machine):
                     self.world.stored_late.add((option, name))
             if old is None:
                 self.note_attribute(option, name, AccessKind.WRITE, place)
+            if isinstance(option, Mystery):
+                self.note_handed([value], place, f'{option.text}.{name}')
 
     def _note_same_unknown(self, old: Any, new: Value) -> None:
         """One attribute holds one thing: unknown callers pass the same to all methods."""
