@@ -71,6 +71,24 @@ def test_an_object_of_any_kind_may_be_gone_when_it_is_used(made: str, used: str)
     assert lines(text, 'self.lock') == []
 
 
+@pytest.mark.parametrize(
+    ('used', 'is_used'),
+    [
+        ('print(2 - self.held)', True),
+        ('print(self.held < 2)', True),
+        ('print(1 < 2 <= self.held)', True),
+        ('print("x" in self.held)', True),
+        ('print(self.held % 2)', True),
+        ('print("%s" % self.held)', False),
+        ('print(self.held == 2)', False),
+        ('print(self.held)', False),
+    ],
+)
+def test_an_operand_that_must_be_there_is_used(used: str, is_used: bool) -> None:
+    text = PROGRAM.replace('MADE', 'msg').replace('self.held.USED', used)
+    assert lines(text, FREE) == ([(26, 'warning')] if is_used else [])
+
+
 WORKER = """\
 import threading
 import time

@@ -23,7 +23,11 @@ from ros2cc_extract.extract.static.concurrency.accesses.held_locks import (
 )
 from ros2cc_extract.extract.static.concurrency.waits import values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, is_main, touch
-from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes, unmangled
+from ros2cc_extract.extract.static.program.text_queries import (
+    cleared_attributes,
+    reassigned_attributes,
+    unmangled,
+)
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, Looked
@@ -476,19 +480,14 @@ def _holds_lock(owner: Instance) -> bool:
 
 def _is_assigned(cls: Value | None, name: str) -> bool:
     """Whether a method assigns the attribute that was not made yet."""
-    return any(True for _ in _assigned(cls, name))
+    return any(name in reassigned_attributes(base.node) for base in _classes(cls))
 
 
 def _is_taken_away(owner: Value, name: str) -> bool:
     """Whether a method stores ``None`` where an entity, a lock or a function may be."""
     cls = owner.cls if isinstance(owner, Instance) else owner
-    return any(
-        isinstance(text, ast.Constant) and text.value is None for text in _assigned(cls, name)
-    )
+    return any(name in cleared_attributes(base.node) for base in _classes(cls))
 
 
-def _assigned(cls: Value | None, name: str) -> Iterator[ast.expr | None]:
-    """The texts of what methods other than ``__init__`` assign to an attribute."""
-    for base in getattr(cls, 'mro', ()):
-        if isinstance(base, Class):
-            yield from reassigned_attributes(base.node).get(name, ())
+def _classes(cls: Value | None) -> Iterator[Class]:
+    return (base for base in getattr(cls, 'mro', ()) if isinstance(base, Class))
