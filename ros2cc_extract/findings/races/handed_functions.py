@@ -8,6 +8,7 @@ from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.base.wording import called
 from ros2cc_extract.findings.races.flag_locks import shared_by
 from ros2cc_extract.findings.races.races import RaceKind, races_across
+from ros2cc_extract.findings.waits.concurrent_threads import is_of_a_loop
 from ros2cc_extract.spec.model import Activity, ActivityKind, Spec
 
 _HARMLESS = (RaceKind.WHOLE_UPDATE, RaceKind.LAST_WRITE_WINS)
@@ -24,11 +25,19 @@ def races_with_others(unit: Spec) -> Iterator[str]:
     known = (one for one in threads if one.unresolved is None)
     doers: tuple[Doer, ...] = (*shared_by(context), *known)
     for handed in unit.handed:
-        for race in races_across((handed, doer) for doer in doers):
+        others = [doer for doer in doers if not _take_turns(handed, doer)]
+        for race in races_across((handed, doer) for doer in others):
             if race.kind not in _HARMLESS:
-                others = {use.doer.name: use.doer for use in (race.first, *race.others)}
-                names = [called(each) for each in others.values() if each.name != handed.name]
+                met = {use.doer.name: use.doer for use in (race.first, *race.others)}
+                names = [called(each) for each in met.values() if each.name != handed.name]
                 yield (f'{_words(handed)} beside {", ".join(names)}, and both use {race.names[0]}')
+
+
+def _take_turns(handed: Activity, doer: Doer) -> bool:
+    """Coroutines of one loop have its thread between them."""
+    if handed.kind is not ActivityKind.POOL or not isinstance(doer, Activity):
+        return False
+    return doer.kind is ActivityKind.POOL or is_of_a_loop(doer)
 
 
 def _words(handed: Activity) -> str:

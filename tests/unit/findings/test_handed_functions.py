@@ -6,6 +6,7 @@ import pytest
 
 from ros2cc_extract.extract.static.api import scan_text
 from ros2cc_extract.findings.promises import Promise, judge
+from ros2cc_extract.findings.races.handed_functions import races_with_others
 from ros2cc_extract.generator.build import Profile
 from ros2cc_extract.spec.close import close
 from ros2cc_extract.spec.yaml.yaml_io import read_specs, write_specs
@@ -89,6 +90,53 @@ def test_what_harms_nothing_or_is_called_by_the_program_leaves_it_proven(
     handed: str, stored: str, called: str
 ) -> None:
     assert told(handed, stored, called) == KEPT
+
+
+LOOP = """\
+import asyncio
+import threading
+import broker
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Empty
+
+class Bridge(Node):
+    def __init__(self):
+        super().__init__('bridge')
+        self.clients = set()
+        self.loop = asyncio.new_event_loop()
+        threading.Thread(target=self.loop.run_forever, daemon=True).start()
+        self.create_subscription(Empty, 'in', self.on_message, 10)
+        broker.serve(self.serve)
+
+    def on_message(self, msg):
+        asyncio.run_coroutine_threadsafe(self.send(), self.loop)
+        IN_CALLBACK
+
+    async def send(self):
+        for client in self.clients:
+            await client.send('x')
+
+    ASYNC def serve(self, client):
+        self.clients.add(client)
+
+rclpy.init()
+rclpy.spin(Bridge())
+"""
+
+
+@pytest.mark.parametrize(
+    ('marked', 'in_callback', 'is_open'),
+    [
+        ('async', 'pass', False),
+        ('', 'pass', True),
+        ('async', 'print([client for client in self.clients])', True),
+    ],
+)
+def test_coroutines_of_one_loop_take_turns(marked: str, in_callback: str, is_open: bool) -> None:
+    text = LOOP.replace('ASYNC', marked).replace('IN_CALLBACK', in_callback)
+    [unit] = scan_text(text.replace('     def serve', '    def serve'), 'bridge.py').units
+    assert bool([*races_with_others(unit)]) is is_open
 
 
 def test_following_such_a_function_adds_nothing_else_to_the_unit() -> None:

@@ -10,7 +10,7 @@ from ros2cc_extract.extract.static.python.values.values import Bound, Class, Ins
 from ros2cc_extract.extract.static.units.activities import facts_of
 from ros2cc_extract.extract.static.units.torn_messages import pieces_of
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.model import Activity
+from ros2cc_extract.spec.model import Activity, ActivityKind
 
 
 def handed_to_others(
@@ -29,7 +29,7 @@ def handed_to_others(
         found.append(
             Activity(
                 name=taken.take(facts.label),
-                kind=state.kind,
+                kind=ActivityKind.POOL if facts.coroutine else ActivityKind.THREAD,
                 function=facts.function,
                 node=node_names[id(touched[0])] if len(touched) == 1 else None,
                 cls=owner.class_name if owner and isinstance(owner.cls, Class) else None,
