@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections import Counter, defaultdict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from heapq import heappop, heappush
 from typing import TypeVar
 
@@ -55,13 +55,13 @@ def leading_to_entities(
     nodes: Sequence[ast.AST],
     makers: frozenset[str],
     *,
-    or_wait: bool = False,
+    or_wait: Callable[[str], bool] = lambda name: False,
 ) -> frozenset[str]:
     """
     Names of the methods that make or serve entities, themselves or through each other.
 
     :param makers: names of classes and functions that do so.
-    :param or_wait: so do those that wait for others.
+    :param or_wait: of which names those do too that wait for others.
     """
     methods = list(zip(names, nodes, strict=True))
     found = {
@@ -69,7 +69,7 @@ def leading_to_entities(
         for name, node in methods
         if creates_entities(node)
         or not makers.isdisjoint(mentions(node))
-        or (or_wait and waits_for_others(node))
+        or (waits_for_others(node) and or_wait(name))
     }
     users = defaultdict[str, list[str]](list)
     for name, node in methods:

@@ -62,6 +62,8 @@ def _creates_entities(node: ast.AST) -> bool:
 _WAITS = frozenset(
     [
         'accept',
+        'acquire',
+        'as_completed',
         'call',
         'call_async',
         'communicate',
@@ -69,20 +71,31 @@ _WAITS = frozenset(
         'get_result_async',
         'recv',
         'recvfrom',
+        'run_until_complete',
+        'sleep_for',
+        'sleep_until',
         'wait',
     ]
 )
 _WAIT = 'wait_'
+# With other arguments they are methods of texts and dictionaries.
+_WITHOUT_VALUES = frozenset(['get', 'join', 'result', 'exception'])
+_LIMITS = frozenset(['block', 'timeout'])
+_PAUSES = frozenset(['sleep', 'spin_once'])
 _OF_PROCESSES = frozenset(['run', 'check_call', 'check_output'])
 
 
 def waits_for_others(node: ast.AST) -> bool:
-    """Whether ``node`` calls something by the name of a wait for other code."""
+    """Whether ``node`` calls something by the name of a wait for other code, or may poll data."""
     return noted_on(node, 'waits_for_others', _waits_for_others)
 
 
 def _waits_for_others(node: ast.AST) -> bool:
-    return any(part.__class__ is ast.Call and _is_wait(part) for part in walk(node))
+    return any(
+        (part.__class__ is ast.Call and _is_wait(part))
+        or (part.__class__ is ast.While and _polls(part))
+        for part in walk(node)
+    )
 
 
 def _is_wait(call: ast.Call) -> bool:
@@ -91,8 +104,20 @@ def _is_wait(call: ast.Call) -> bool:
         return isinstance(function, ast.Name) and function.id == 'input'
     if function.attr in _OF_PROCESSES:
         return isinstance(function.value, ast.Name) and function.value.id == 'subprocess'
-    is_of_thread = function.attr == 'join' and not call.args  # that of a text takes something
-    return function.attr in _WAITS or function.attr.startswith(_WAIT) or is_of_thread
+    name = function.attr
+    if name in _WITHOUT_VALUES:
+        is_plain = not call.args or getattr(call.args[0], 'value', None) is True
+        return is_plain and all(each.arg in _LIMITS for each in call.keywords)
+    return name in _WAITS or name.startswith(_WAIT) or (name == 'put' and len(call.args) == 1)
+
+
+def _polls(loop: ast.While) -> bool:
+    """``while not self.done: time.sleep(0.1)``: it looks again and again, and does little."""
+    if isinstance(loop.test, ast.Constant):
+        return False
+    called = (part.func for part in walk(loop) if isinstance(part, ast.Call))
+    names = {getattr(each, 'attr', getattr(each, 'id', '')) for each in called}
+    return not _PAUSES.isdisjoint(names) or all(isinstance(part, ast.Pass) for part in loop.body)
 
 
 def replaces_rclpy(tree: ast.Module) -> bool:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import ast
+from functools import partial
 
 from ros2cc_extract.extract.static.concurrency.accesses.signal_locks import signals_of
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import note_kept_locks
+from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import may_be_called
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     NodeState,
     RosWorld,
@@ -234,7 +236,8 @@ def _methods_without_caller(machine: RosInterpreter, instance: Instance) -> list
         and creates_entities(value.node)
     )
     names, nodes = [method.name for method in left], [method.function.node for method in left]
-    wanted = leading_to_entities(names, nodes, makers, or_wait=True)
+    or_wait = partial(may_be_called, machine.world)
+    wanted = leading_to_entities(names, nodes, makers, or_wait=or_wait)
     if isinstance(instance.state, NodeState) and instance.state.lifecycle:
         wanted |= {_DESTROYING}
     return [method for method in callers_first(left, names, nodes) if method.name in wanted]

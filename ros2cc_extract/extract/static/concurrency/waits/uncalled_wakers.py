@@ -96,6 +96,11 @@ def _is_dead(world: ConcurrentWorld, function: str) -> bool:
     return not any(function in text or 'getattr' in text for text in texts)
 
 
+def may_be_called(world: ConcurrentWorld, method: str) -> bool:
+    """Whether Python, or a text of the program, may call a method of that name."""
+    return method.startswith('__') or not _is_dead(world, method)
+
+
 def is_handed_on(world: ConcurrentWorld, function: str) -> bool:
     """Whether a text of the program has the function as a value that it does not call."""
     return any(function in noted_on(tree, 'handed_on', _handed_on) for tree, _ in world.files)

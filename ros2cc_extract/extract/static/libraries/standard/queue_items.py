@@ -31,6 +31,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.model import When
 
 _PUT = 'it is put into a queue'
 _MOST = 24
@@ -72,7 +73,8 @@ def taken_out(machine: ConcurrentMachine, queue: Value, call: Call) -> Value | N
         if not isinstance(option, Instance) or not _is_of_threads(option):
             return None
         contents = machine.world.queues.setdefault(id(option), Contents(option))
-        contents.taken[call.place] = len(contents.items)
+        if machine.world.effects is not None or machine.world.when is not When.LATER:
+            contents.taken[call.place] = len(contents.items)  # else nobody is known to call it
         found += (each for item in contents.items for each in options_of(item))
     if len(found) > _MOST or not any(map(_does_something, found)):
         return None

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static.python.branching import open_tests
+from ros2cc_extract.extract.static.python.builtins import special_methods
 from ros2cc_extract.extract.static.python.machine import path_facts
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -46,6 +47,8 @@ def boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
         before = machine.world.changing
         value = machine.evaluate(part, frame)
         values.append(value)
+        if part is not node.values[-1]:
+            special_methods.run(machine, value, special_methods.TRUTH, frame.place(part))
         machine.world.assume(path_facts.implied_by(value), holds=not stops_on)
         is_open = machine.world.changing != before
         last = index == len(node.values) - 1
@@ -92,9 +95,17 @@ def _open_condition(
     return machine.mystery('a condition', frame.place(node))
 
 
+_UNARY: dict[type[ast.unaryop], str] = {
+    ast.USub: '__neg__',
+    ast.UAdd: '__pos__',
+    ast.Invert: '__invert__',
+}
+
+
 def unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
     value = machine.evaluate(node.operand, frame)
     if isinstance(node.op, ast.Not):
+        special_methods.run(machine, value, special_methods.TRUTH, frame.place(node))
         truth = machine.truth(value)
         if truth is not None:
             return Const(not truth)
@@ -102,6 +113,7 @@ def unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
         if answer is not None:
             return answer
         return _open_condition(machine, [value], lambda held: _negated(machine, held), node, frame)
+    special_methods.run(machine, value, (_UNARY[type(node.op)],), frame.place(node))
     folded = constant_folding.unary(node.op, value)
     default = by_default([value], partial(constant_folding.unary, node.op))
     if isinstance(value, Mystery) and default is not None:

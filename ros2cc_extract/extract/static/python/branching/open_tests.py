@@ -17,6 +17,7 @@ from ros2cc_extract.extract.static.program.text_queries import (
     reassigned_attributes,
     walk,
 )
+from ros2cc_extract.extract.static.python.builtins import special_methods
 from ros2cc_extract.extract.static.python.machine.dependences import Asked, computed_from, names_in
 from ros2cc_extract.extract.static.python.machine.fixed_point import note_met
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -46,6 +47,7 @@ def decide(machine: Machine, test: ast.expr, frame: Frame) -> bool | None:
     """``bool(test)``; ``None`` when that depends, also on when it is asked."""
     before = machine.world.changing
     value = machine.evaluate(test, frame)
+    special_methods.run(machine, value, special_methods.TRUTH, frame.place(test))
     holds = machine.truth(value)
     machine.world.tested = value
     return holds if machine.world.changing == before else None

@@ -10,6 +10,7 @@ from typing import Any
 from ros2cc_extract.extract.static.python.builtins import builtin_methods
 from ros2cc_extract.extract.static.python.builtins.map_and_zip import filtered, mapped, zipped
 from ros2cc_extract.extract.static.python.builtins.methods_by_name import methods_named_like
+from ros2cc_extract.extract.static.python.builtins.properties import made_property
 from ros2cc_extract.extract.static.python.builtins.sorting import identity, in_order
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -359,6 +360,21 @@ def _enter_on_stack(machine: Machine, receiver: Value, call: Call) -> Value:
     return machine.enter_context(entered, call.place) if entered is not None else NONE
 
 
+def _bound_method(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``types.MethodType(function, owner)``."""
+    if len(call.args) != 2 or not isinstance(call.args[0], Function):
+        return machine.mystery('a method that is not followed', call.place, 'MethodType(…)')
+    return Bound(call.args[1], call.args[0])
+
+
+def _namespace(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``types.SimpleNamespace(name=value)``."""
+    if isinstance(receiver, Instance):
+        for name, value in call.keywords.items():
+            machine.store.write(receiver, name, value)
+    return NONE
+
+
 _EXIT_STACK = LibraryClass(init=_print, methods={'enter_context': _enter_on_stack})
 
 
@@ -420,6 +436,7 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.map': mapped,
     'builtins.filter': filtered,
     'builtins.type': _type,
+    'builtins.property': made_property,
     'builtins.print': _print,
     'builtins.exit': _exit,
     'builtins.quit': _exit,
@@ -460,9 +477,11 @@ TABLE = Library(
         'builtins.object': LibraryClass(init=_print),
         'contextlib.ExitStack': _EXIT_STACK,
         'contextlib.AsyncExitStack': _EXIT_STACK,
+        'types.SimpleNamespace': LibraryClass(init=_namespace),
     },
     functions={
         **_FUNCTIONS,
+        'types.MethodType': _bound_method,
         'importlib.import_module': _import_module,
     },
     constants={

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ros2cc_extract.extract.static.python.builtins.function_takers import sort
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops
@@ -288,7 +289,7 @@ _SEQUENCE: dict[str, Handler] = {
     'copy': _copy,
     'remove': _unordered,
     'discard': _unordered,
-    'sort': lambda machine, receiver, call: NONE,
+    'sort': sort,
     'reverse': lambda machine, receiver, call: NONE,
 }
 

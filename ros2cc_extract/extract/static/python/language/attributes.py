@@ -103,6 +103,9 @@ class Attributes(Machine):
             unset = Mystery(Unknown(UNSET, place), _owner_text(text))
             return self.member_of_mystery(unset, name, place)
         if isinstance(value, Const) and isinstance(value.value, Member):
+            method = value.value.method(name)
+            if method is not None:
+                return self._of_member(value, value.value, method, place)
             return value.value.attribute(name, place)
         if isinstance(value, (Sequence, Mapping, Const)):
             return builtin_methods.method(value, name)
@@ -188,6 +191,13 @@ class Attributes(Machine):
             getter = Bound(receiver, member)
             return self._called_by_looking(receiver, member.name, getter, Call(place))
         return Bound(receiver, member)
+
+    def _of_member(self, value: Const, member: Member, method: Function, place: Place) -> Value:
+        if method.binding == 'property':
+            return self.call(Bound(value, method), Call(place))
+        if method.binding == 'static':
+            return method
+        return Bound(member.cls if method.binding == 'class' else value, method)
 
     def _of_class(self, value: Class, name: str, place: Place) -> Value | None:
         if name in ('__name__', '__qualname__'):

@@ -8,6 +8,7 @@ from typing import Any
 from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS
 from ros2cc_extract.extract.static.python.branching import narrowed_types, open_tests
 from ros2cc_extract.extract.static.python.branching.order_of_text import Asked
+from ros2cc_extract.extract.static.python.builtins import function_takers, special_methods
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -19,6 +20,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Call,
     Const,
     Function,
+    Library,
     Mystery,
     Native,
     Value,
@@ -48,6 +50,9 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
         return machine.mystery(f'{function.name}()', call.place)
     machine.world.reading.calls += 1
+    if isinstance(function, (Native, Library)):
+        special_methods.run_for_function(machine, function.name, call)
+        function_takers.run(machine, function.name, call)
     result = machine.call(function, call)
     asked.done()
     if isinstance(function, Native) and function.name == 'builtins.isinstance':

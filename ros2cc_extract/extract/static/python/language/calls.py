@@ -7,8 +7,8 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static.program.text_queries import is_test, mangled
+from ros2cc_extract.extract.static.python.builtins.properties import ACCESSORS, with_accessor
 from ros2cc_extract.extract.static.python.language import plain_data_calls, recursive_loops
-from ros2cc_extract.extract.static.python.language.code_behind import with_setter
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError, CannotCallError, Frame
 from ros2cc_extract.extract.static.python.machine.incomplete_runs import note_cut
@@ -52,6 +52,7 @@ from ros2cc_extract.source_locations import Place, Unknown
 _CALL_DEPTH = 40
 _TOO_DEEP = f'what is called here, {_CALL_DEPTH} calls deep, is not followed'
 _SAME_FUNCTION = 2
+_TOLD = '__init_subclass__'
 
 
 class Calls(Machine):
@@ -99,7 +100,11 @@ class Calls(Machine):
         self.world.called[id(function.node)] = function
         if self.world.effects is not None:
             self.world.effects.begun += 1
-        if len(self.stack) >= _CALL_DEPTH or self.stack.count(function) >= _SAME_FUNCTION:
+        again = self.stack.count(function)
+        wider = _any_numbers(function, call) if again == _SAME_FUNCTION else None
+        if wider is not None and len(self.stack) < _CALL_DEPTH:
+            call = wider
+        elif len(self.stack) >= _CALL_DEPTH or again >= _SAME_FUNCTION:
             if len({*self.stack, function}) > len(self.stack):  # none calls itself
                 note_cut(self.world, call.place, _TOO_DEEP)
             return self.mystery(f'recursion in {function.name}', call.place)
@@ -250,6 +255,8 @@ class Calls(Machine):
             scope = None
         function = Function(node, frame.module, qualname, scope)
         function.owner = in_class
+        if in_class is not None and name == _TOLD:
+            function.binding = 'class'
         function.defaults = tuple(self.evaluate(d, frame) for d in node.args.defaults)
         parameters = (*node.args.posonlyargs, *node.args.args)
         for parameter, value in zip(
@@ -276,7 +283,7 @@ class Calls(Machine):
             if binding is not None and isinstance(value, Function):
                 value.binding = binding
                 continue
-            if isinstance(decorator, ast.Attribute) and decorator.attr in ('setter', 'deleter'):
+            if isinstance(decorator, ast.Attribute) and decorator.attr in ACCESSORS:
                 return self._with_accessor(function, decorator, frame)
             wrapper = self.evaluate(decorator, frame)
             self.world.decorated.append(function)
@@ -291,7 +298,7 @@ class Calls(Machine):
     def _with_accessor(self, function: Function, decorator: ast.Attribute, frame: Frame) -> Value:
         """``@name.setter``: the property of that name, with what assigns it."""
         known = self.evaluate(decorator.value, frame)
-        made = with_setter(self, known, function) if decorator.attr == 'setter' else None
+        made = with_accessor(self, known, decorator.attr, function)
         old = made or frame.scope.slots.get(function.name)
         return old if isinstance(old, Value) else function
 
@@ -323,7 +330,20 @@ class Calls(Machine):
             if name != '__class_body__':
                 self.store.write(cls, mangled(name, cls.name), value)
                 bind_by_name(name, value)
+        self._tell_base(cls, node, frame)
         return cls
+
+    def _tell_base(self, cls: Class, node: ast.ClassDef, frame: Frame) -> None:
+        """``__init_subclass__`` of a base class is called with each class that is made of it."""
+        bases = (base.slots for base in cls.mro[1:] if isinstance(base, Class))
+        hook = next((slots[_TOLD] for slots in bases if _TOLD in slots), None)
+        if isinstance(hook, Function):
+            given = {
+                each.arg: self.evaluate(each.value, frame)
+                for each in node.keywords
+                if each.arg not in (None, 'metaclass')
+            }
+            self.call(Bound(cls, hook), Call(frame.place(node), [], given))
 
     def _give_metaclass(self, cls: Class, node: ast.ClassDef, frame: Frame) -> None:
         """The metaclass of the class statement, or that of a base."""
@@ -383,6 +403,27 @@ _BINDINGS = {
     'abstractmethod': 'method',
     'override': 'method',
 }
+
+
+def _any_numbers(function: Function, call: Call) -> Call | None:
+    """
+    The same call with any numbers, which stands for all further calls of a recursion.
+
+    ``None`` where no number is handed on: then the next run is as the last one.
+    """
+
+    def any_number(value: Value) -> Value:
+        is_number = isinstance(value, Const) and type(value.value) in (int, float)
+        reason = f'a number that {function.name} hands on to itself'
+        return Mystery(Unknown(reason, call.place), 'n') if is_number else value
+
+    args = [any_number(each) for each in call.args]
+    keywords = {name: any_number(each) for name, each in call.keywords.items()}
+    if args == call.args and keywords == call.keywords:
+        return None
+    wider = Call(call.place, args, keywords, call.more, call.text)
+    wider.sources = call.sources
+    return wider
 
 
 def _last_name(node: ast.expr) -> str:

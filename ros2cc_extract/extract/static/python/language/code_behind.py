@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 
+from ros2cc_extract.extract.static.python.builtins.properties import ACCESSORS
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.values import (
@@ -16,8 +17,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Place
-
-_SETTER = '<setter>'
 
 _OPERATORS: dict[type[ast.operator], str] = {
     ast.Add: 'add',
@@ -36,35 +35,35 @@ _OPERATORS: dict[type[ast.operator], str] = {
 }
 
 
-def with_setter(machine: Machine, known: Value, setter: Function) -> Function | None:
-    """``@known.setter``: a property like ``known`` that is assigned by calling ``setter``."""
-    if not isinstance(known, Function) or known.binding != 'property':
-        return None
-    made = Function(known.node, known.module, known.qualname, known.scope)
-    made.owner, made.binding = known.owner, known.binding
-    machine.store.write(made, _SETTER, setter)
-    return made
-
-
-def setters_of(owner: Value, name: str) -> list[Bound]:
-    """What ``owner.name = …`` calls instead of storing anything."""
+def setters_of(owner: Value, name: str, kind: str = 'setter') -> list[Bound]:
+    """What ``owner.name = …``, or ``del owner.name``, calls instead of storing anything."""
     if not isinstance(owner, Instance):
         return []
     for cls in owner.mro:
         if isinstance(cls, Class) and name in cls.slots:
             known = cls.slots[name]
-            setter = known.slots.get(_SETTER) if isinstance(known, Function) else None
+            setter = known.slots.get(ACCESSORS[kind]) if isinstance(known, Function) else None
             return [Bound(owner, setter)] if isinstance(setter, Function) else []
     return []
 
 
 def is_assigned_by_call(machine: Machine, target: ast.Attribute, frame: Frame) -> bool:
     """Whether ``target = …`` may call a setter."""
+    return bool(_behind(machine, target, frame, 'setter'))
+
+
+def _behind(machine: Machine, target: ast.Attribute, frame: Frame, kind: str) -> list[Bound]:
     noted, machine.world.effects = machine.world.effects, None
     owner = machine.evaluate(target.value, frame)
     machine.world.effects = noted
     name = frame.attribute_name(target.attr)
-    return any(setters_of(option, name) for option in options_of(owner))
+    return [each for option in options_of(owner) for each in setters_of(option, name, kind)]
+
+
+def delete(machine: Machine, target: ast.Attribute, frame: Frame) -> None:
+    """``del owner.name`` runs the code behind it."""
+    for deleter in _behind(machine, target, frame, 'deleter'):
+        machine.call(deleter, Call(frame.place(target)))
 
 
 def assign(machine: Machine, setter: Bound, value: Value, place: Place) -> None:

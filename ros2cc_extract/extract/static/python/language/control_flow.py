@@ -129,6 +129,8 @@ def _case(machine: Machine, case: ast.match_case, frame: Frame) -> int:
         if isinstance(name, str):
             unknown = machine.mystery('bound by a match pattern', frame.place(part), name)
             machine.assign(ast.Name(name, ast.Store()), unknown, frame)
+    if case.guard is not None and open_tests.decide(machine, case.guard, frame) is False:
+        return NEXT
     return machine.execute_block(case.body, frame)
 
 

@@ -9,14 +9,14 @@ from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import conditions, narrowed_types, open_tests
 from ros2cc_extract.extract.static.python.branching.order_of_text import Asked
+from ros2cc_extract.extract.static.python.builtins import special_methods
 from ros2cc_extract.extract.static.python.language.call_expressions import evaluate_call
 from ros2cc_extract.extract.static.python.language.code_behind import operated
 from ros2cc_extract.extract.static.python.language.subscripts import slice_alone, subscript
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
-from ros2cc_extract.extract.static.python.objects import loops
-from ros2cc_extract.extract.static.python.objects.iterators import RepeatedCall
+from ros2cc_extract.extract.static.python.objects import iterators, loops
 from ros2cc_extract.extract.static.python.objects.unset_globals import unset_global
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
@@ -25,7 +25,6 @@ from ros2cc_extract.extract.static.python.values.values import (
     ABSENT,
     NONE,
     NOT_FOLDED,
-    Call,
     Choice,
     Class,
     Const,
@@ -91,9 +90,9 @@ class Expressions(Machine):
             return (), Unknown('one of several sequences, depending on a branch', place)
         if isinstance(value, Mystery):
             return (), Unknown(value.unknown.reason, value.unknown.at or place)
-        if isinstance(value, RepeatedCall):
-            reason = Unknown('as many items as the call gives before the sentinel', place)
-            return (self.call(value.function, Call(place)),), reason
+        given = iterators.given_by(self, value, place)
+        if given is not None:
+            return given
         self.note_results(value, place)
         return (), Unknown('a sequence that could not be followed', place)
 
@@ -133,6 +132,8 @@ class Expressions(Machine):
             given = operated(self, op, left, right, place, augmented=is_augmented)
             if given is not None:
                 return given
+        if isinstance(op, ast.Mod) and isinstance(left, Const) and isinstance(left.value, str):
+            special_methods.run_for_text(self, right, frame.place(node))
         folded = constant_folding.binary(op, left, right)
         if folded is not None:
             return folded
@@ -311,8 +312,13 @@ def _joined_text(*parts: Value) -> Value | None:
     return constant_folding.joined(texts) if len(texts) == len(parts) else None
 
 
+_TEXTS_OF_PARTS = {ord('r'): ('__repr__',), ord('s'): special_methods.TEXT}
+
+
 def _formatted_part(machine: Expressions, node: ast.FormattedValue, frame: Frame) -> Value:
     value = machine.evaluate(node.value, frame)
+    names = _TEXTS_OF_PARTS.get(node.conversion, special_methods.FORMATTED)
+    special_methods.run(machine, value, names, frame.place(node))
     if node.conversion == -1 and node.format_spec is None:
         return value
     if isinstance(value, Const) and node.conversion == -1 and node.format_spec is not None:

@@ -372,6 +372,8 @@ def _delete(machine: Statements, node: ast.Delete, frame: Frame) -> int:
             machine.store.remove(frame.scope, target.id)
         elif isinstance(target, ast.Subscript):
             _delete_item(machine, target, frame)
+        elif isinstance(target, ast.Attribute):
+            code_behind.delete(machine, target, frame)
     return NEXT
 
 
@@ -391,7 +393,7 @@ def _constant_flow(flow: int) -> Callable[..., int]:
 
 
 def _assert(machine: Statements, node: ast.Assert, frame: Frame) -> int:
-    machine.evaluate(node.test, frame)
+    open_tests.decide(machine, node.test, frame)
     return NEXT
 
 

@@ -20,7 +20,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Native,
     Value,
 )
-from ros2cc_extract.source_locations import Place
+from ros2cc_extract.source_locations import Place, Unknown
 
 
 class RepeatedCall(Heaped):
@@ -52,6 +52,23 @@ def next_of(machine: Machine, value: Value, place: Place) -> Callable[[], Value]
     if method is None:
         return None
     return lambda: machine.call(method, Call(place))
+
+
+def given_by(
+    machine: Machine, value: Value, place: Place
+) -> tuple[tuple[Value, ...], Unknown] | None:
+    """What iterating over an object gives, by its methods; ``None`` where it has none."""
+    iterator = iterated(machine, value, place)
+    reason = Unknown('as many items as it gives', place)
+    if isinstance(iterator, RepeatedCall):
+        return (machine.call(iterator.function, Call(place)),), reason
+    method = _method(machine, iterator, '__next__', place)
+    if method is not None:
+        return (machine.call(method, Call(place)),), reason
+    if iterator is value or isinstance(iterator, Instance):
+        return None
+    known, rest = machine.items_of(iterator, place)
+    return known, rest or reason
 
 
 def _of_lines(machine: Machine, value: Value, place: Place) -> Value | None:

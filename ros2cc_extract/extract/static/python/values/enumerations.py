@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Call,
     Class,
     Const,
+    Function,
     Library,
     Mystery,
     Value,
@@ -34,12 +35,19 @@ class Member:
     owner: str
     name: str
     value: Value = field(compare=False)
+    cls: Class = field(compare=False)
 
     def __repr__(self) -> str:
         return f'{self.owner.rpartition(".")[2]}.{self.name}'
 
+    def method(self, name: str) -> Function | None:
+        """The function that its class has under ``name``."""
+        classes = (cls for cls in self.cls.mro if isinstance(cls, Class) and name in cls.slots)
+        found = next((cls.slots[name] for cls in classes), None)
+        return found if isinstance(found, Function) else None
+
     def attribute(self, name: str, place: Place) -> Value:
-        """What the member has under ``name``."""
+        """What the member has under ``name``, if that is no function."""
         if name == 'name':
             return Const(self.name)
         reason = f'{name!r} of a member of an enumeration'
@@ -62,7 +70,7 @@ def settle(cls: Class, slots: dict[str, Value]) -> None:
             value = Const(name.lower() if bases & _TEXTS else number + 1)
         if isinstance(value, Const) and isinstance(value.value, int):
             number = value.value
-        member = Const(Member(owner, name, value)) if is_plain else value
+        member = Const(Member(owner, name, value, cls)) if is_plain else value
         slots[name] = known.setdefault(value, member) if isinstance(value, Const) else member
 
 

@@ -1,0 +1,1 @@
+"""Ways in which Python comes to a wait that no call of the callback names."""
