@@ -14,6 +14,7 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.answers_of_others import answers_assumed
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Context
+from ros2cc_extract.findings.races.handed_functions import races_with_others
 from ros2cc_extract.findings.rules.deadlocks.never_ends import RULE as NEVER_ENDS
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
@@ -166,6 +167,7 @@ class _Unit:
             yield from _overload(self.unit)
         if promise is Promise.RACES:
             yield from _copies(self.unit)
+            yield from races_with_others(self.unit)
         if promise is Promise.SETTINGS:
             yield from self._without_effect()
 

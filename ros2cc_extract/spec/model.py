@@ -402,11 +402,11 @@ class Spec:
 
     :param name: UPPAAL identifier; with several nodes the name of the unit.
     :param activities: threads of the program's own, and ``main``, that run beside the executor.
+    :param handed: functions that code which is not scanned has, and may call on any thread.
     :param set_up: waits of the code that sets the unit up or ends it: ``main``, constructors, what
         no known code calls. They hold up only that code, and no model has them.
     :param nodes: the ROS nodes served, in the order of ``add_node``.
-    :param entry: where this set-up starts (``arm.py:main``); units of different entries of one
-        file are alternatives of each other.
+    :param entry: where this set-up starts (``arm.py:main``); those of one file are alternatives.
     :param rclpy: version of rclpy the facts are tied to, where known.
     :raises SpecFormatError: on a duplicate name or a group that is not declared.
     """
@@ -416,6 +416,7 @@ class Spec:
     groups: tuple[CallbackGroup, ...]
     executor: Executor
     activities: tuple[Activity, ...] = ()
+    handed: tuple[Activity, ...] = ()
     set_up: tuple[Blocking, ...] = ()
     origin: Origin = Origin.MANUAL
     nodes: tuple[str, ...] = ()
@@ -445,9 +446,8 @@ class Spec:
         yield self.name
         yield from (callback.name for callback in self.callbacks)
         yield from (group.name for group in self.groups)
-        yield self.executor.name
-        yield from self.executor.threads
-        yield from (activity.name for activity in self.activities)
+        yield from (self.executor.name, *self.executor.threads)
+        yield from (activity.name for activity in (*self.activities, *self.handed))
 
     @property
     def has_work(self) -> bool:

@@ -67,9 +67,12 @@ if __name__ == '__main__':
 #     changes done_callback @36
 #   action_client spin_action_client in turner_default key=spin
 #   done_callback accepted in no_group key=spin conditional when=callback
+#     reads Turner.handle @31
 #     writes Turner.handle @30
 #     changes done_callback @31
 #   done_callback ended in no_group key=spin conditional when=callback
+#     writes Turner.handle clears @42
 #   done_callback stopped in no_group key=spin conditional when=callback
+#     writes Turner.handle clears @39
 #   done_callback turn in no_group key=spin conditional when=callback
 #     changes done_callback @27

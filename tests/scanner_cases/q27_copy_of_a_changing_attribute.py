@@ -58,8 +58,10 @@ if __name__ == '__main__':
 #     reads Robot.mode @23
 #     changes timer @25
 #   subscription on_stop in robot_default key=stop
+#     reads Robot.alarm @31
 #     changes timer @33
 #   subscription on_mode in robot_default key=mode
 #     writes Robot.mode @19
+#     writes Robot.alarm clears @20
 #   ? drive count
 #   ? ring_2 count

@@ -52,3 +52,6 @@ if __name__ == '__main__':
 # unit bridge: SingleThreadedExecutor x1 spin in thread, main
 #   group bridge_default EXCLUSIVE default
 #   client go_client in bridge_default key=go conditional when=later
+#   activity main main
+#     reads Bridge._node @45>24
+#     writes Bridge._node clears @45>25

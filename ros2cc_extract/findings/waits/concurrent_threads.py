@@ -60,7 +60,7 @@ def repeats(thread: Activity) -> bool:
     Those of a pool may have to take turns, and those of timers follow each other.
     """
     is_several = isinstance(thread.count, Unknown) or thread.count > 1
-    is_plain = thread.kind is ActivityKind.THREAD and not _is_of_a_loop(thread)
+    is_plain = thread.kind is ActivityKind.THREAD and not is_of_a_loop(thread)
     by_itself = any(start.by == thread.name for start in thread.starts)
     return is_several and is_plain and not by_itself and not thread.conditional
 
@@ -99,10 +99,11 @@ def _take_turns(one: Activity, other: Activity) -> bool:
     """Tasks of one pool and coroutines of one loop may share a thread."""
     if one.kind is other.kind is ActivityKind.POOL:
         return True
-    return (_is_of_a_loop(one) and _is_of_a_loop(other)) or _follow_each_other(one, other)
+    return (is_of_a_loop(one) and is_of_a_loop(other)) or _follow_each_other(one, other)
 
 
-def _is_of_a_loop(thread: Activity) -> bool:
+def is_of_a_loop(thread: Activity) -> bool:
+    """Whether it is a coroutine, which shares its thread with the others of its loop."""
     return any(kind_of(block) is WaitKind.AWAIT for block in thread.blocking)
 
 

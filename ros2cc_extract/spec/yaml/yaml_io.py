@@ -72,6 +72,7 @@ class _Node:
     groups: tuple[CallbackGroup, ...]
     executor: Executor
     activities: tuple[Activity, ...] = ()
+    handed: tuple[Activity, ...] = ()
     set_up: tuple[Blocking, ...] = ()
 
 
@@ -100,6 +101,7 @@ _NODE = record(
         Plain('callback_groups', 'groups', listing(GROUP, at_least=1)),
         Plain('executor', 'executor', EXECUTOR),
         Plain('activities', 'activities', listing(ACTIVITY), ()),
+        Plain('handed', 'handed', listing(ACTIVITY), ()),
         Plain('set_up', 'set_up', listing(BLOCKING), ()),
     ),
     required=('name', 'callbacks', 'callback_groups', 'executor'),
@@ -122,6 +124,7 @@ def _decode(cursor: Cursor) -> Spec:
         groups=node.groups,
         executor=node.executor,
         activities=node.activities,
+        handed=node.handed,
         set_up=node.set_up,
         origin=header.origin,
         nodes=header.nodes,
@@ -147,6 +150,7 @@ def _encode(spec: Spec) -> dict[str, Any]:
         groups=spec.groups,
         executor=spec.executor,
         activities=spec.activities,
+        handed=spec.handed,
         set_up=spec.set_up,
     )
     written: dict[str, Any] = {} if header == _Header() else {'ros2cc': _HEADER.encode(header)}
@@ -194,8 +198,9 @@ def _name_cursors(node: Cursor) -> Iterator[Cursor]:
         yield from (_child(item, 'name') for item in parent.items())
     yield _child(executor, 'name')
     yield from (_child(thread, 'name') for thread in _child(executor, 'threads').items())
-    if any(name.value == 'activities' for name, _ in node.node.value):
-        yield from (_child(each, 'name') for each in _child(node, 'activities').items())
+    for key in ('activities', 'handed'):
+        if any(name.value == key for name, _ in node.node.value):
+            yield from (_child(each, 'name') for each in _child(node, key).items())
 
 
 def _child(cursor: Cursor, key: str) -> Cursor:

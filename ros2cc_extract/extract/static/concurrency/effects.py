@@ -23,7 +23,11 @@ from ros2cc_extract.extract.static.concurrency.accesses.held_locks import (
 )
 from ros2cc_extract.extract.static.concurrency.waits import values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, is_main, touch
-from ros2cc_extract.extract.static.program.text_queries import reassigned_attributes, unmangled
+from ros2cc_extract.extract.static.program.text_queries import (
+    cleared_attributes,
+    reassigned_attributes,
+    unmangled,
+)
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, Looked
@@ -300,6 +304,8 @@ class Effects(Waits):
                 return not is_stored and not _is_assigned(cls, name)
             is_code = isinstance(held[0], (Function, Native, Class))
             return is_code or self.special_method(held[0], '__get__', place) is not None
+        if _is_taken_away(owner, name):
+            return False
         return any(
             isinstance(option, (Bound, Function, Native, Class))
             or (isinstance(option, Instance) and option.state is not None)
@@ -476,10 +482,16 @@ def _holds_lock(owner: Instance) -> bool:
     )
 
 
-def _is_assigned(cls: Value, name: str) -> bool:
+def _is_assigned(cls: Value | None, name: str) -> bool:
     """Whether a method assigns the attribute that was not made yet."""
-    return any(
-        name in reassigned_attributes(base.node)
-        for base in getattr(cls, 'mro', ())
-        if isinstance(base, Class)
-    )
+    return any(name in reassigned_attributes(base.node) for base in _classes(cls))
+
+
+def _is_taken_away(owner: Value, name: str) -> bool:
+    """Whether a method stores ``None`` where an entity, a lock or a function may be."""
+    cls = owner.cls if isinstance(owner, Instance) else owner
+    return any(name in cleared_attributes(base.node) for base in _classes(cls))
+
+
+def _classes(cls: Value | None) -> Iterator[Class]:
+    return (base for base in getattr(cls, 'mro', ()) if isinstance(base, Class))

@@ -188,6 +188,19 @@ def _reassigned_attributes(cls: ast.ClassDef) -> Mapping[str, Sequence[ast.expr 
     return found
 
 
+def cleared_attributes(cls: ast.ClassDef) -> frozenset[str]:
+    """Those of them that are set to ``None``."""
+    return noted_on(cls, 'cleared_attributes', _cleared_attributes)
+
+
+def _cleared_attributes(cls: ast.ClassDef) -> frozenset[str]:
+    return frozenset(
+        name
+        for name, values in reassigned_attributes(cls).items()
+        if any(isinstance(each, ast.Constant) and each.value is None for each in values)
+    )
+
+
 def is_test(name: str) -> bool:
     """Whether test runners take a function of this name for a test."""
     return name.startswith('test')

@@ -43,6 +43,7 @@ from ros2cc_extract.extract.static.scan.callback_runs import (
 )
 from ros2cc_extract.extract.static.scan.first_runs import follow_first_runs, stored_by_set_up
 from ros2cc_extract.extract.static.scan.guarded_runs import guarded
+from ros2cc_extract.extract.static.scan.handed_functions import follow_handed
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_test, end_test
 from ros2cc_extract.extract.static.scan.texts_that_act import may_make_entities, may_wait
@@ -104,6 +105,7 @@ def _run_entry(project: Project, entry: Entry, signals: frozenset[Place]) -> Ros
     note_ends(machine.world)
     note_foreign_loops(machine.world)
     note_endless_readers(machine.world)
+    follow_handed(machine)
     return machine
 
 
@@ -118,6 +120,7 @@ def _run_escaped(machine: RosInterpreter) -> None:
         if not isinstance(function, Function) or id(function.node) in world.called:
             continue
         if may_make_entities(world, function.node) or may_wait(world, function.node):
+            world.escaped_to_unknown.add(id(function.node))
             _run_escaped_one(machine, value, function, place)
 
 

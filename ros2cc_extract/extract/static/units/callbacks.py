@@ -30,6 +30,7 @@ from ros2cc_extract.extract.static.units.callback_names import (
 )
 from ros2cc_extract.extract.static.units.entity_aliases import same_on_a_ghost
 from ros2cc_extract.extract.static.units.executor import Unit, executor_of
+from ros2cc_extract.extract.static.units.handed_functions import handed_to_others
 from ros2cc_extract.extract.static.units.set_up_waits import named_waits
 from ros2cc_extract.extract.static.units.torn_messages import pieces_of
 from ros2cc_extract.extract.static.units.unused_groups import unused_groups
@@ -104,10 +105,12 @@ class UnitBuilder:
         executor_name = self._taken.take(self._unit.executor_label)
         executor = executor_of(self._unit, executor_name, threads, entry, self._world)
         with_waits, activities, set_up = self._with_waits(callbacks, entities, executor)
+        handed = handed_to_others(self._world, self._nodes, self._node_names, self._taken)
         return Spec(
             name=name,
             callbacks=with_waits,
             activities=activities,
+            handed=handed if self._unit.executor is not None else (),
             set_up=set_up,
             groups=tuple(groups),
             executor=executor,

@@ -119,6 +119,7 @@ def unary(machine: Machine, node: ast.UnaryOp, frame: Frame) -> Value:
 
 def compare(machine: Machine, node: ast.Compare, frame: Frame) -> Value:
     machine.world.reading.note_comparison(node, frame.module.file, frame.scope.slots)
+    machine.world.reading.note_operands(node, frame.module.file)
     before = machine.world.changing
     first = left = machine.evaluate(node.left, frame)
     verdict: bool | None = True

@@ -123,6 +123,8 @@ class Assignments(Machine):
                 self.world.stored_late.add((owner, name))
         if old is None:
             self.note_attribute(owner, name, AccessKind.WRITE, place)
+        if isinstance(owner, Mystery):
+            self.note_handed([value], place, f'{owner.text}.{name}')
 
     def _note_same_unknown(self, old: Any, new: Value) -> None:
         """One attribute holds one thing: unknown callers pass the same to all methods."""

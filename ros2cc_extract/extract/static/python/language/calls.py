@@ -311,6 +311,7 @@ class Calls(Machine):
         of_tests = source_text(decorator).startswith('pytest') or is_test(function.name)
         if function.owner is None and not of_tests:
             self.world.escaped.append((function, frame.place(decorator)))
+            self.note_handed([function], frame.place(decorator), source_text(decorator))
 
     def make_class(self, node: ast.ClassDef, frame: Frame) -> Class:
         """A class from its statement, its body run."""

@@ -284,6 +284,7 @@ def _dictionary(machine: Expressions, node: ast.Dict, frame: Frame) -> Value:
 
 
 def _binary(machine: Expressions, node: ast.BinOp, frame: Frame) -> Value:
+    machine.world.reading.note_operands(node, frame.module.file)
     left = machine.evaluate(node.left, frame)
     right = machine.evaluate(node.right, frame)
     return machine.operate(node.op, left, right, frame, node)

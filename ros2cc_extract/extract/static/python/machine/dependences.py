@@ -18,6 +18,7 @@ from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
 _IDENTITY = (ast.Is, ast.IsNot, ast.Eq, ast.NotEq)
+_ORDER = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 
 
 @dataclass(frozen=True)
@@ -181,6 +182,11 @@ class Reading:
         if name is not None:
             self.used.add((place, name))
 
+    def note_operands(self, node: ast.BinOp | ast.Compare, file: str) -> None:
+        """Operands that may not be ``None``: of arithmetic, of an order, and what is looked in."""
+        for used in _operands(node):
+            self.note_use(used, Place(file, used.lineno, used.col_offset + 1))
+
     def note_comparison(self, node: ast.Compare, file: str, own: Container[str]) -> None:
         """Note ``self.goal is goal``: code with this test expects others to store it."""
         left, right = node.left, node.comparators[0]
@@ -191,6 +197,23 @@ class Reading:
             if name is not None and isinstance(known, ast.Name) and known.id in own:
                 place = Place(file, asked.lineno, asked.col_offset + 1)
                 self.compared.add((place, name))
+
+
+def _operands(node: ast.BinOp | ast.Compare) -> Iterator[ast.expr]:
+    if isinstance(node, ast.BinOp):
+        # The right side of ``%`` may be what a text is made from, and ``|`` joins types.
+        if not isinstance(node.op, ast.BitOr):
+            yield node.left
+        if not isinstance(node.op, (ast.BitOr, ast.Mod)):
+            yield node.right
+        return
+    left = node.left
+    for operator, right in zip(node.ops, node.comparators, strict=True):
+        if isinstance(operator, _ORDER):
+            yield from (left, right)
+        elif isinstance(operator, (ast.In, ast.NotIn)):
+            yield right
+        left = right
 
 
 def constant_key(key: ast.expr) -> str | None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 
@@ -181,6 +181,10 @@ class Machine(Observer, LibraryHooks, ABC):
     @abstractmethod
     def library_call(self, function: Value, call: Call) -> None:
         """Something unknown is called, perhaps with a node among its arguments."""
+
+    @abstractmethod
+    def note_handed(self, values: Iterable[Value], place: Place, name: str) -> None:
+        """Functions that code which is not scanned has now."""
 
     @abstractmethod
     def library_member(

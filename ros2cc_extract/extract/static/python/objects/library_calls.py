@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any
 
@@ -96,7 +96,10 @@ class LibraryCalls(Machine):
         if isinstance(function, Mystery):
             name = function.text
         self._keep_escaped(call)
-        if not name or is_standard(name):
+        if is_standard(name):
+            return
+        self.note_handed((*call.args, *call.keywords.values()), call.place, name)
+        if not name:
             return
         why = Unknown(f'it is handed to {name}, which is not scanned', call.place)
         for argument in (*call.args, *call.keywords.values()):
@@ -105,6 +108,13 @@ class LibraryCalls(Machine):
                     option.state.note_passed(name, call.place)
                 elif isinstance(option, Collection) and not self.model.makes_data(name):
                     self.world.handed_over.setdefault(option, why)
+
+    def note_handed(self, values: Iterable[Value], place: Place, name: str) -> None:
+        """Functions that code which is not scanned has now, and may call on any thread."""
+        for value in values:
+            for option in options_of(value):
+                if isinstance(option, (Function, Bound, Partial)):
+                    self.world.handed.append((option, place, name or 'code'))
 
     def _keep_escaped(self, call: Call) -> None:
         """Functions that are handed to unknown code may be called by it, later."""

@@ -226,13 +226,27 @@ def _when_lost(
 def _is_before(clear: tuple[object, Place], entities: int, mine: Sequence[Waking]) -> bool:
     """Whether code that clears an event asks only after that for what sets it."""
     by, _ = clear
+    asked = [_asked_first(each.by) if isinstance(each.by, EntityState) else None for each in mine]
     return all(
-        isinstance(waking.by, EntityState)
-        and waking.by.kind is EntityKind.DONE_CALLBACK
-        and waking.by.maker is by
-        and waking.by.number >= entities
-        for waking in mine
+        each is not None
+        and each.kind is EntityKind.DONE_CALLBACK
+        and each.maker is by
+        and each.number >= entities
+        for each in asked
     )
+
+
+def _asked_first(by: EntityState) -> EntityState:
+    """The first of done-callbacks that each ask for the next one, as for a goal and its result."""
+    seen = {id(by)}
+    while (
+        isinstance(by.maker, EntityState)
+        and by.kind is by.maker.kind is EntityKind.DONE_CALLBACK
+        and id(by.maker) not in seen
+    ):
+        by = by.maker
+        seen.add(id(by))
+    return by
 
 
 def _notifier(waking: Waking) -> Notifier:
@@ -280,7 +294,7 @@ def _comes_once(waking: Waking, doer: Doer) -> bool:
     """Whether it comes once, or once for each time that ``doer`` itself begins it."""
     by = waking.by
     if isinstance(by, EntityState):
-        is_asked_for = by.kind is EntityKind.DONE_CALLBACK and by.maker is doer
+        is_asked_for = by.kind is EntityKind.DONE_CALLBACK and _asked_first(by).maker is doer
         return is_asked_for or (by.one_shot and not by.restarted)
     if not isinstance(by, ActivityState) or by.loops or waking.repeats:
         return False

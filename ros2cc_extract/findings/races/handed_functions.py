@@ -1,0 +1,45 @@
+"""What callbacks and functions that code which is not scanned may call do to each other's data."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cc_extract.findings.base.rule import Context, Doer
+from ros2cc_extract.findings.base.wording import called
+from ros2cc_extract.findings.races.flag_locks import shared_by
+from ros2cc_extract.findings.races.races import RaceKind, races_across
+from ros2cc_extract.findings.waits.concurrent_threads import is_of_a_loop
+from ros2cc_extract.spec.model import Activity, ActivityKind, Spec
+
+_HARMLESS = (RaceKind.WHOLE_UPDATE, RaceKind.LAST_WRITE_WINS)
+
+
+def races_with_others(unit: Spec) -> Iterator[str]:
+    """
+    Say which of them may break something, if the code that has them calls them on another thread.
+
+    That code may as well call them on the thread that runs the callbacks, so it is no finding.
+    """
+    context = Context(unit)
+    threads = (one for one in unit.activities if one.kind is not ActivityKind.PROCESS)
+    known = (one for one in threads if one.unresolved is None)
+    doers: tuple[Doer, ...] = (*shared_by(context), *known)
+    for handed in unit.handed:
+        others = [doer for doer in doers if not _take_turns(handed, doer)]
+        for race in races_across((handed, doer) for doer in others):
+            if race.kind not in _HARMLESS:
+                met = {use.doer.name: use.doer for use in (race.first, *race.others)}
+                names = [called(each) for each in met.values() if each.name != handed.name]
+                yield (f'{_words(handed)} beside {", ".join(names)}, and both use {race.names[0]}')
+
+
+def _take_turns(handed: Activity, doer: Doer) -> bool:
+    """Coroutines of one loop have its thread between them."""
+    if handed.kind is not ActivityKind.POOL or not isinstance(doer, Activity):
+        return False
+    return doer.kind is ActivityKind.POOL or is_of_a_loop(doer)
+
+
+def _words(handed: Activity) -> str:
+    reason = handed.unresolved.reason if handed.unresolved is not None else 'it is handed on'
+    return f'{handed.display_name} may run ({reason})'
