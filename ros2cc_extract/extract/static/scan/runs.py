@@ -33,6 +33,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Class,
     Function,
     Instance,
+    Library,
     Partial,
     Value,
 )
@@ -63,6 +64,17 @@ from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import When
 
 _DESTROYING = 'on_deactivate'
+_CALLS_NOTHING = frozenset(
+    [
+        'builtins.object',
+        'abc.ABC',
+        'typing.Generic',
+        'rclpy.node.Node',
+        'rclpy.lifecycle.Node',
+        'rclpy.lifecycle.LifecycleNode',
+    ]
+)
+"""Bases that call no method by a name of the program's own."""
 UNCALLED = -3
 """Step of a path that an unknown caller takes."""
 
@@ -236,11 +248,21 @@ def _methods_without_caller(machine: RosInterpreter, instance: Instance) -> list
         and creates_entities(value.node)
     )
     names, nodes = [method.name for method in left], [method.function.node for method in left]
-    or_wait = partial(may_be_called, machine.world)
+    or_wait = partial(_may_be_called, machine.world, instance)
     wanted = leading_to_entities(names, nodes, makers, or_wait=or_wait)
     if isinstance(instance.state, NodeState) and instance.state.lifecycle:
         wanted |= {_DESTROYING}
     return [method for method in callers_first(left, names, nodes) if method.name in wanted]
+
+
+def _may_be_called(world: RosWorld, instance: Instance, method: str) -> bool:
+    """Whether other code, Python itself or a base class that is not scanned may call a method."""
+    is_plain = all(
+        isinstance(cls, Class) or (isinstance(cls, Library) and cls.name in _CALLS_NOTHING)
+        for cls in instance.mro
+    )
+    behind = any(function.name == method for function in world.decorated)
+    return behind or not is_plain or may_be_called(world, method)
 
 
 def _methods_of(machine: RosInterpreter, instance: Instance) -> list[_Method]:

@@ -32,6 +32,8 @@ _METHODS: dict[str, Word] = {
     **dict.fromkeys(CHANGING_METHODS, Word.WRITE),
 }
 
+_BY_TEXT = frozenset(['getattr', 'eval', 'exec', 'methodcaller', 'attrgetter'])
+"""They find a function by a text."""
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 _Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
@@ -93,7 +95,7 @@ def _is_dead(world: ConcurrentWorld, function: str) -> bool:
     if not function or not world.is_program:
         return False
     texts = [noted_on(tree, 'mentioned', _mentioned) for tree, _ in world.files]
-    return not any(function in text or 'getattr' in text for text in texts)
+    return not any(function in text or not _BY_TEXT.isdisjoint(text) for text in texts)
 
 
 def may_be_called(world: ConcurrentWorld, method: str) -> bool:
@@ -122,7 +124,11 @@ def _mentioned(tree: ast.Module) -> frozenset[str]:
     names |= {part.attr for part in walk(tree) if isinstance(part, ast.Attribute)}
     texts = (part.value for part in walk(tree) if isinstance(part, ast.Constant))
     imported = (part.name for part in walk(tree) if isinstance(part, ast.alias))
-    return frozenset([*names, *(text for text in texts if isinstance(text, str)), *imported])
+    matched = (
+        name for part in walk(tree) if isinstance(part, ast.MatchClass) for name in part.kwd_attrs
+    )
+    spelled = (text for text in texts if isinstance(text, str))
+    return frozenset([*names, *spelled, *imported, *matched])
 
 
 def _lost(world: ConcurrentWorld, name: str, word: Word) -> list[Place]:
