@@ -8,7 +8,11 @@ from collections.abc import Callable, Sequence
 from heapq import heappop, heappush
 from typing import TypeVar
 
-from ros2cc_extract.extract.static.program.relevance import creates_entities, waits_for_others
+from ros2cc_extract.extract.static.program.relevance import (
+    creates_entities,
+    may_wait,
+    waits_for_others,
+)
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 
 Item = TypeVar('Item')
@@ -55,13 +59,13 @@ def leading_to_entities(
     nodes: Sequence[ast.AST],
     makers: frozenset[str],
     *,
-    or_wait: Callable[[str], bool] = lambda name: False,
+    or_wait: Callable[[str], bool] | None = None,
 ) -> frozenset[str]:
     """
     Names of the methods that make or serve entities, themselves or through each other.
 
     :param makers: names of classes and functions that do so.
-    :param or_wait: of which names those do too that wait for others.
+    :param or_wait: so do those that wait for others, and those it holds for that may wait.
     """
     methods = list(zip(names, nodes, strict=True))
     found = {
@@ -69,7 +73,8 @@ def leading_to_entities(
         for name, node in methods
         if creates_entities(node)
         or not makers.isdisjoint(mentions(node))
-        or (waits_for_others(node) and or_wait(name))
+        or (or_wait is not None and waits_for_others(node))
+        or (or_wait is not None and may_wait(node) and or_wait(name))
     }
     users = defaultdict[str, list[str]](list)
     for name, node in methods:

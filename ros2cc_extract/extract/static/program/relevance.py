@@ -62,8 +62,6 @@ def _creates_entities(node: ast.AST) -> bool:
 _WAITS = frozenset(
     [
         'accept',
-        'acquire',
-        'as_completed',
         'call',
         'call_async',
         'communicate',
@@ -71,31 +69,27 @@ _WAITS = frozenset(
         'get_result_async',
         'recv',
         'recvfrom',
-        'run_until_complete',
-        'sleep_for',
-        'sleep_until',
         'wait',
     ]
 )
 _WAIT = 'wait_'
-# With other arguments they are methods of texts and dictionaries.
-_WITHOUT_VALUES = frozenset(['get', 'join', 'result', 'exception'])
+_MAY_WAIT = frozenset(
+    ['acquire', 'as_completed', 'run_until_complete', 'sleep_for', 'sleep_until']
+)
+# With other arguments they are methods of dictionaries.
+_WITHOUT_VALUES = frozenset(['get', 'result', 'exception'])
 _LIMITS = frozenset(['block', 'timeout'])
 _PAUSES = frozenset(['sleep', 'spin_once'])
 _OF_PROCESSES = frozenset(['run', 'check_call', 'check_output'])
 
 
 def waits_for_others(node: ast.AST) -> bool:
-    """Whether ``node`` calls something by the name of a wait for other code, or may poll data."""
+    """Whether ``node`` calls something by the name of a wait for other code."""
     return noted_on(node, 'waits_for_others', _waits_for_others)
 
 
 def _waits_for_others(node: ast.AST) -> bool:
-    return any(
-        (part.__class__ is ast.Call and _is_wait(part))
-        or (part.__class__ is ast.While and _polls(part))
-        for part in walk(node)
-    )
+    return any(part.__class__ is ast.Call and _is_wait(part) for part in walk(node))
 
 
 def _is_wait(call: ast.Call) -> bool:
@@ -104,11 +98,29 @@ def _is_wait(call: ast.Call) -> bool:
         return isinstance(function, ast.Name) and function.id == 'input'
     if function.attr in _OF_PROCESSES:
         return isinstance(function.value, ast.Name) and function.value.id == 'subprocess'
-    name = function.attr
+    is_of_thread = function.attr == 'join' and not call.args  # that of a text takes something
+    return function.attr in _WAITS or function.attr.startswith(_WAIT) or is_of_thread
+
+
+def may_wait(node: ast.AST) -> bool:
+    """Whether ``node`` polls data, or calls by a name that is not only that of a wait."""
+    return noted_on(node, 'may_wait', _may_wait)
+
+
+def _may_wait(node: ast.AST) -> bool:
+    return any(
+        (part.__class__ is ast.Call and _is_perhaps_a_wait(part))
+        or (part.__class__ is ast.While and _polls(part))
+        for part in walk(node)
+    )
+
+
+def _is_perhaps_a_wait(call: ast.Call) -> bool:
+    name = call.func.attr if isinstance(call.func, ast.Attribute) else ''
     if name in _WITHOUT_VALUES:
         is_plain = not call.args or getattr(call.args[0], 'value', None) is True
         return is_plain and all(each.arg in _LIMITS for each in call.keywords)
-    return name in _WAITS or name.startswith(_WAIT) or (name == 'put' and len(call.args) == 1)
+    return name in _MAY_WAIT or (name == 'put' and len(call.args) == 1)
 
 
 def _polls(loop: ast.While) -> bool:

@@ -47,7 +47,7 @@ from ros2cc_extract.extract.static.scan.guarded_runs import guarded
 from ros2cc_extract.extract.static.scan.handed_functions import follow_handed
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_test, end_test
-from ros2cc_extract.extract.static.scan.texts_that_act import may_make_entities, may_wait
+from ros2cc_extract.extract.static.scan.texts_that_act import leads_to_waits, may_make_entities
 from ros2cc_extract.extract.static.units.whole_program.double_spins import note_spun_twice
 from ros2cc_extract.extract.static.units.whole_program.endless_readers import (
     note_endless_readers,
@@ -131,7 +131,7 @@ def _run_escaped(machine: RosInterpreter) -> None:
         function = inner.function if isinstance(inner, Bound) else inner
         if not isinstance(function, Function) or id(function.node) in world.called:
             continue
-        if may_make_entities(world, function.node) or may_wait(world, function.node):
+        if may_make_entities(world, function.node) or leads_to_waits(world, function.node):
             world.escaped_to_unknown.add(id(function.node))
             _run_escaped_one(machine, value, function, place)
 

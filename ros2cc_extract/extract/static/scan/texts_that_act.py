@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import ast
 
-from ros2cc_extract.extract.static.program.relevance import creates_entities, waits_for_others
+from ros2cc_extract.extract.static.program.relevance import (
+    creates_entities,
+    may_wait,
+    waits_for_others,
+)
 from ros2cc_extract.extract.static.python.machine.world import World
 from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
 
@@ -14,6 +18,6 @@ def may_make_entities(world: World, start: ast.AST) -> bool:
     return any(creates_entities(node) for node in reachable(world, start))
 
 
-def may_wait(world: World, start: ast.AST) -> bool:
-    """Whether something that ``start`` names waits for other code."""
-    return any(waits_for_others(node) for node in reachable(world, start))
+def leads_to_waits(world: World, start: ast.AST) -> bool:
+    """Whether something that ``start`` names waits for other code, or may."""
+    return any(waits_for_others(node) or may_wait(node) for node in reachable(world, start))
