@@ -91,3 +91,53 @@ def test_the_set_up_waits_where_it_takes_the_items_itself() -> None:
     unit = unit_of('self.steps = self.script(); next(self.steps)', 'print(self.gone)')
     assert [block.call for block in unit.set_up] == ['Event.wait']
     assert on_tick(unit).blocking == ()
+
+
+FEED = """
+import time
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Empty
+
+class Feed(Node):
+    def __init__(self):
+        super().__init__('feed')
+        self.items = []
+        self.create_subscription(Empty, 'tick', self.on_tick, 10)
+        self.create_subscription(Empty, 'gone', self.on_gone, 10)
+
+    def readings(self):
+        LOOP
+            yield 1
+
+    def on_tick(self, msg):
+        for item in self.readings():
+            ROUND
+
+    def on_gone(self, msg):
+        self.items.append(0)
+
+rclpy.init()
+rclpy.spin(Feed())
+"""
+
+
+@pytest.mark.parametrize(
+    ('loop', 'round_', 'waits'),
+    [
+        ('while True:', 'time.sleep(1)', [('endless loop', 'the end of the program', None)]),
+        ('while True:', 'break', []),
+        (
+            'while len(self.items) < 5:',
+            'self.items.append(item)',
+            [('polling loop', None, 'what takes the items may change what the loop reads')],
+        ),
+    ],
+)
+def test_a_loop_over_a_generator_ends_where_both_do(
+    loop: str, round_: str, waits: list[tuple[str, str | None, str | None]]
+) -> None:
+    (unit,) = scan_text(FEED.replace('LOOP', loop).replace('ROUND', round_)).units
+    blocks = [each for each in on_tick(unit).blocking if each.call != 'time.sleep']
+    found = [(b.call, b.resource, b.escapes.reason if b.escapes else None) for b in blocks]
+    assert found == waits

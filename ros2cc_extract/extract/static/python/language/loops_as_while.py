@@ -4,7 +4,8 @@
 ``for _ in itertools.count():`` has a name that grows in each round;
 ``for item in iter(function, sentinel):`` takes ``item = function()`` in each round, and is left
 where that is the sentinel. Source: CPython 3.12, library reference, "Built-in
-Functions", ``iter``.
+Functions", ``iter``. ``for item in self.readings():`` takes the next reading in each round, and is
+never left where the generator itself is ``while True``.
 """
 
 from __future__ import annotations
@@ -13,9 +14,10 @@ import ast
 from collections.abc import Sequence
 
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
+from ros2cc_extract.extract.static.python.builtins import generators
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.values.values import Library
+from ros2cc_extract.extract.static.python.values.values import Bound, Function, Library
 
 _ENDLESS = {'itertools.count': 2, 'itertools.repeat': 1}
 """What gives items forever, with at most so many arguments."""
@@ -25,9 +27,11 @@ _REPEATING = 'iter'
 def as_while(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> ast.While | None:
     """The ``while`` loop that does the same, if there is one."""
     items = node.iter
-    if not isinstance(items, ast.Call) or not isinstance(node.target, ast.Name):
+    if not isinstance(items, ast.Call) or not isinstance(node, ast.For):
         return None
-    if not isinstance(node, ast.For):
+    if _is_endless_generator(machine, items.func, frame):
+        return noted_on(node, 'as_while', _taken)
+    if not isinstance(node.target, ast.Name):
         return None
     if not isinstance(items.func, (ast.Name, ast.Attribute)) or items.keywords:
         return None
@@ -43,6 +47,38 @@ def as_while(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> as
     loop = noted_on(node, 'as_while', _endless)
     machine.assign(node.target, machine.mystery('a counter', frame.place(node.iter)), frame)
     return loop
+
+
+def _is_endless_generator(machine: Machine, function: ast.expr, frame: Frame) -> bool:
+    """Whether ``self.readings`` is a generator that gives items forever."""
+    is_plain = isinstance(function, ast.Attribute) and isinstance(function.value, ast.Name)
+    if not is_plain and not isinstance(function, ast.Name):
+        return False
+    noted, machine.world.effects = machine.world.effects, None
+    called = machine.evaluate(function, frame)
+    machine.world.effects = noted
+    known = called.function if isinstance(called, Bound) else called
+    return (
+        isinstance(known, Function)
+        and generators.is_generator(known)
+        and noted_on(known.node, 'never_ends', _never_ends)
+    )
+
+
+def _never_ends(function: ast.AST) -> bool:
+    """Whether the body comes to ``while True:`` with nothing that leaves it."""
+    loops = (part for part in getattr(function, 'body', ()) if isinstance(part, ast.While))
+    return any(
+        isinstance(loop.test, ast.Constant)
+        and bool(loop.test.value)
+        and not any(isinstance(part, (*_LEAVES, ast.Raise)) for part in walk(loop))
+        for loop in loops
+    )
+
+
+def _taken(node: ast.For) -> ast.While:
+    item = ast.Call(ast.Name('next', ast.Load()), [node.iter], [])
+    return _made(node, [ast.Assign([node.target], item)], node.orelse)
 
 
 def counting(node: ast.For | ast.AsyncFor) -> ast.While | None:

@@ -53,6 +53,7 @@ from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     spins,
 )
 from ros2cc_extract.extract.static.program.retried_calls import is_retried
+from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import (
@@ -322,6 +323,10 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
     seen = seen_by(machine, tests_of_data(machine, asked_of_data, loop, frame), frame)
     written = {access.name for access in effects.writes[before.writes :]}
     if seen.names & (written | set(effects.own[before.own :])):
+        return
+    if any(isinstance(part, (ast.Yield, ast.YieldFrom)) for part in walk(loop)):
+        reason = Unknown('what takes the items may change what the loop reads', frame.place(loop))
+        machine.note_loop_on_data(POLL, reason, None, frame.place(loop.test))
         return
     _note(machine, loop, frame, tests, seen, sent_up_to(effects, before.order))
 
