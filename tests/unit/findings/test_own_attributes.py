@@ -190,3 +190,16 @@ def test_an_attribute_that_is_set_by_its_name_ends_a_wait(switch: str) -> None:
     on_tick = next(each for each in unit.callbacks if each.function_name == 'on_tick')
     (wait,) = on_tick.blocking
     assert [waker.by for waker in wait.wakers] == ['on_switch']
+
+
+def test_what_a_name_space_holds_is_data_of_its_holder() -> None:
+    text = program(
+        'self.space.on = True',
+        'while not self.space.on:\n            pass',
+        set_up='self.space = types.SimpleNamespace(on=False)',
+        classes='import types',
+    )
+    (unit,) = scan_text(text).units
+    on_tick = next(each for each in unit.callbacks if each.function_name == 'on_tick')
+    (wait,) = on_tick.blocking
+    assert [waker.by for waker in wait.wakers] == ['on_switch']

@@ -193,6 +193,12 @@ def _namespace(machine: Machine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
+def _holds_code(call: Call) -> bool:
+    """A name space of plain data is data, which only assignments change."""
+    given = (option for value in call.keywords.values() for option in options_of(value))
+    return any(isinstance(option, (*_CALLABLE, Instance)) for option in given)
+
+
 def _keep_for_exit(machine: Machine, stack: Value, function: Value) -> None:
     if isinstance(stack, Instance):
         machine.store.write(stack, _ON_EXIT, (*stack.slots.get(_ON_EXIT, ()), function))
@@ -313,7 +319,7 @@ FUNCTIONS: dict[str, Handler] = {
 }
 
 CLASSES = {
-    'types.SimpleNamespace': LibraryClass(init=_namespace),
+    'types.SimpleNamespace': LibraryClass(init=_namespace, matters=_holds_code),
     'contextlib.ExitStack': _STACK,
     'contextlib.AsyncExitStack': _STACK,
     'contextlib.closing': LibraryClass(

@@ -13,7 +13,7 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
-from ros2cc_extract.extract.static.python.values.values import Handler, Instance, Value
+from ros2cc_extract.extract.static.python.values.values import Call, Handler, Instance, Value
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
@@ -35,6 +35,7 @@ class LibraryClass:
     :param init: what ``__init__`` does; the receiver is the instance.
     :param is_beside: an object may be this in addition to what another base class makes of it.
     :param again: what holds for an instance that is made again, by what made it before.
+    :param matters: whether an instance does that is made with these arguments.
     """
 
     state: StateFactory | None = None
@@ -42,6 +43,7 @@ class LibraryClass:
     again: Callable[[Any, Instance], None] | None = None
     bases: tuple[str, ...] = ()
     is_beside: bool = False
+    matters: Callable[[Call], bool] | None = None
     methods: dict[str, Handler] = field(default_factory=dict)
     properties: dict[str, Property] = field(default_factory=dict)
 

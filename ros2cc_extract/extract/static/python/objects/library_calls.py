@@ -54,6 +54,8 @@ class LibraryCalls(Machine):
     def call_library(self, function: Library, call: Call) -> Value:
         """Call a name of a library: make an instance, or give a mystery."""
         rows = self.model.rows(function.name)
+        if not all(row.matters is None or row.matters(call) for row in rows):
+            rows = []
         if not rows:
             return self.unknown_result(function, call)
         known = reanalysis.made_then(self.world, function, call.place)
