@@ -324,11 +324,14 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
     written = {access.name for access in effects.writes[before.writes :]}
     if seen.names & (written | set(effects.own[before.own :])):
         return
+    known = len(effects.blocking)
+    _note(machine, loop, frame, tests, seen, sent_up_to(effects, before.order))
     if any(isinstance(part, (ast.Yield, ast.YieldFrom)) for part in walk(loop)):
         reason = Unknown('what takes the items may change what the loop reads', frame.place(loop))
-        machine.note_loop_on_data(POLL, reason, None, frame.place(loop.test))
-        return
-    _note(machine, loop, frame, tests, seen, sent_up_to(effects, before.order))
+        effects.blocking[known:] = [
+            replace(block, on=reason, resource=None, escapes=reason)
+            for block in effects.blocking[known:]
+        ]
 
 
 def mark_recursive(
