@@ -51,15 +51,17 @@ from ros2cc_extract.extract.static.python.objects.allocation_sites import (
     made_before,
     remember,
 )
-from ros2cc_extract.extract.static.python.values.assumed_defaults import default_of
+from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default, default_of
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
+    Choice,
     Const,
     Handler,
     Instance,
     Mystery,
     Value,
+    choice,
     options_of,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
@@ -259,14 +261,22 @@ def _create_rate(machine: RosMachine, receiver: Value, call: Call) -> Value:
     entity = add_entity(machine, receiver, EntityKind.TIMER, state.rate_group, call.place)
     entity.library = OF_RATE
     frequency = call.argument(0, 'frequency')
-    if isinstance(frequency, Const) and isinstance(frequency.value, (int, float)):
-        entity.period = Const(1.0 / frequency.value) if frequency.value else None
-    else:
-        entity.period = frequency
+    entity.period = _inverse(frequency) if frequency is not None else None
     made = Instance(Name('rclpy.timer.Rate'), call.place)
     made.state = entity
     remember_entity(machine, made)
     return made
+
+
+def _inverse(frequency: Value) -> Value | None:
+    """The period of a rate; what is open stays so, with what it is by default."""
+    if isinstance(frequency, Mystery):
+        return Mystery(frequency.unknown, frequency.text, by_default([frequency], _inverse))
+    if isinstance(frequency, Choice):
+        periods = [_inverse(each) for each in options_of(frequency)]
+        return choice([period for period in periods if period is not None]) or None
+    is_number = isinstance(frequency, Const) and isinstance(frequency.value, (int, float))
+    return Const(1.0 / frequency.value) if is_number and frequency.value else None  # type: ignore[attr-defined]
 
 
 def _create_publisher(machine: RosMachine, receiver: Value, call: Call) -> Value:
