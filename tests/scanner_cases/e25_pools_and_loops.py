@@ -15,6 +15,7 @@ class A(Node):
         super().__init__('a')
         self.pool = ThreadPoolExecutor()
         self.loop = asyncio.new_event_loop()
+        threading.Thread(target=self.loop.run_forever).start()
         self.heard = threading.Event()
         self.create_subscription(String, 'in', self.on_in, 10)
         self.create_timer(1.0, self.leave)
@@ -58,37 +59,38 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer leave in a_default every 1
-#     blocks Executor.shutdown on Future @34
-#       ended by task @35
+#     blocks Executor.shutdown on Future @35
+#       ended by task @36
 #   timer gather in a_default every 1
-#     blocks futures.wait on Future through Future#2 1.0 s @39
-#       ended by task_2 @38
-#     blocks futures.as_completed on Future through Future#2 @40
-#       ended by task_2 @38
-#     blocks Executor.map on map @42
-#       ended by task_3 @42
+#     blocks futures.wait on Future through Future#2 1.0 s @40
+#       ended by task_2 @39
+#     blocks futures.as_completed on Future through Future#2 @41
+#       ended by task_2 @39
+#     blocks Executor.map on map @43
+#       ended by task_3 @43
 #   timer bridge in a_default every 1
-#     blocks Future.result on Future through Future#3 @45
-#       ended by coroutine @45
-#     blocks asyncio await on Future through Future#4 @46>31
-#       ended by task_5 @31
-#     reads A.loop @45
+#     blocks Future.result on Future through Future#3 @46
+#       ended by coroutine @46
+#     blocks asyncio await on Future through Future#4 @47>32
+#       ended by task_5 @32
+#     reads A.loop @46
 #   subscription on_in in a_default key=in
-#   activity pool task (A.task) started by leave @35 count=?
-#     blocks Event.wait on on_in through heard @28
-#       ended by on_in @25
-#   activity pool task_2 (A.task) started by gather @38 count=?
-#     blocks Event.wait on on_in through heard @28
-#       ended by on_in @25
-#   activity pool task_3 (A.task) started by gather after 2 @42 count=?
-#     blocks Event.wait on on_in through heard @28
-#       ended by on_in @25
-#   activity thread coroutine (A.coroutine) started by bridge @45 count=?
-#     blocks await on Future through Future#5 @31
-#       ended by task_4 @31
-#   activity pool task_4 (A.task) started by coroutine @31 count=?
-#     blocks Event.wait on on_in through heard @28
-#       ended by on_in @25
-#   activity pool task_5 (A.task) started by bridge after 1 @31 count=?
-#     blocks Event.wait on on_in through heard @28
-#       ended by on_in @25
+#   activity thread run_forever loops
+#   activity pool task (A.task) started by leave @36 count=?
+#     blocks Event.wait on on_in through heard @29
+#       ended by on_in @26
+#   activity pool task_2 (A.task) started by gather @39 count=?
+#     blocks Event.wait on on_in through heard @29
+#       ended by on_in @26
+#   activity pool task_3 (A.task) started by gather after 2 @43 count=?
+#     blocks Event.wait on on_in through heard @29
+#       ended by on_in @26
+#   activity thread coroutine (A.coroutine) started by bridge @46 count=?
+#     blocks await on Future through Future#5 @32
+#       ended by task_4 @32
+#   activity pool task_4 (A.task) started by coroutine @32 count=?
+#     blocks Event.wait on on_in through heard @29
+#       ended by on_in @26
+#   activity pool task_5 (A.task) started by bridge after 1 @32 count=?
+#     blocks Event.wait on on_in through heard @29
+#       ended by on_in @26

@@ -14,7 +14,11 @@ from contextlib import contextmanager
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import LoopRun, LoopTouch
-from ros2cc_extract.extract.static.libraries.standard.futures import LOOP, run_in_executor
+from ros2cc_extract.extract.static.libraries.standard.futures import (
+    LOOP,
+    RUNS,
+    run_in_executor,
+)
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items
 from ros2cc_extract.extract.static.libraries.standard.queues import QUEUE_METHODS, may_be_full
 from ros2cc_extract.extract.static.libraries.standard.queues import init as init_queue
@@ -91,12 +95,14 @@ def _run_coroutine(machine: ConcurrentMachine, receiver: Value, call: Call) -> V
 
 
 def _run_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    _note_run(machine, receiver)
+    _note_run(machine, receiver, call.place)
     return _run_coroutine(machine, receiver, call)
 
 
-def _note_run(machine: ConcurrentMachine, loop: Value) -> None:
+def _note_run(machine: ConcurrentMachine, loop: Value, place: Place) -> None:
     world = machine.world
+    if isinstance(loop, Instance) and RUNS in loop.slots:
+        machine.note_wake(loop.slots[RUNS], Word.SET, place)
     if not world.second_pass and not world.in_callback:
         world.loop_runs.append(LoopRun(loop, world.thread))
 
@@ -189,7 +195,7 @@ def _is_running(machine: ConcurrentMachine, receiver: Value, call: Call) -> Valu
 
 
 def _run_forever(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    _note_run(machine, receiver)
+    _note_run(machine, receiver, call.place)
     if machine.world.activity is not None:
         machine.world.activity.loops = True
     return NONE
@@ -310,8 +316,11 @@ _LOOP_METHODS: dict[str, Handler] = {
 }
 
 
-def _event_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    return Instance(Name(_LOOP), call.place)
+def _new_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """It does nothing before some code runs it."""
+    loop = Instance(Name(_LOOP), call.place)
+    loop.slots[RUNS] = _made('asyncio.start of the loop', 'event', call)
+    return loop
 
 
 def _own_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
@@ -348,7 +357,7 @@ TABLE = Library(
         'asyncio.ensure_future': _create_task,
         'asyncio.sleep': _asyncio_sleep,
         'asyncio.get_event_loop': _own_loop,
-        'asyncio.new_event_loop': _event_loop,
+        'asyncio.new_event_loop': _new_loop,
         'asyncio.get_running_loop': _own_loop,
     },
     aliases={

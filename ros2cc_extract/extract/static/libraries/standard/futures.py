@@ -49,6 +49,9 @@ from ros2cc_extract.spec.model import ActivityKind
 
 LOOP = '__loop__'
 """Slot of a loop of asyncio for where it begins."""
+RUNS = '__runs__'
+"""Slot of a loop of the program's own for the event that some code runs it."""
+_OF_NEW_LOOP = '__of_new_loop__'
 _HANDED_OVER = '__handed_over__'
 _FIRST = ('FIRST_COMPLETED', 'FIRST_EXCEPTION')
 
@@ -91,6 +94,8 @@ def run_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Call) -> V
     if task is not None:
         return task
     turns = loop.slots.get(LOOP) if isinstance(loop, Instance) else None
+    if isinstance(loop, Instance) and isinstance(future, Instance):
+        future.slots[_OF_NEW_LOOP] = loop.slots.get(RUNS, NONE)
     begin(machine, ActivityKind.THREAD, target, inner, future, turns=turns, on_loop=True)
     may_be_done(machine, future)
     return future
@@ -199,9 +204,18 @@ def _running(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return running(receiver, call)
 
 
+def waited_for(machine: ConcurrentMachine, future: Value) -> Value:
+    """What a wait for ``future`` waits for first: that some thread runs the loop of its task."""
+    runs = future.slots.get(_OF_NEW_LOOP, NONE) if isinstance(future, Instance) else NONE
+    known = (option for run in machine.world.loop_runs for option in options_of(run.loop))
+    is_run = any(isinstance(loop, Instance) and loop.slots.get(RUNS) is runs for loop in known)
+    return future if runs == NONE or is_run else runs
+
+
 def _waits(name: str) -> Handler:
     def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-        machine.note_blocking(name, receiver, call.argument(0, 'timeout'), call.place)
+        awaited = waited_for(machine, receiver)
+        machine.note_blocking(name, awaited, call.argument(0, 'timeout'), call.place)
         return machine.mystery(f'result of {name}', call.place, 'result()')
 
     return handler

@@ -21,6 +21,7 @@ from ros2cc_extract.extract.static.libraries.standard.done_callbacks import (
     complete,
     init_future,
 )
+from ros2cc_extract.extract.static.libraries.standard.futures import waited_for
 from ros2cc_extract.extract.static.program.retried_calls import is_retried
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
@@ -136,7 +137,8 @@ def _publish(machine: RosMachine, receiver: Value, call: Call) -> Value:
 def _future_result(machine: RosMachine, receiver: Value, call: Call) -> Value:
     assert isinstance(receiver, Instance)
     if receiver.state.kind == OF_POOL:
-        machine.note_blocking('Future.result', receiver, call.argument(0, 'timeout'), call.place)
+        awaited, timeout = waited_for(machine, receiver), call.argument(0, 'timeout')
+        machine.note_blocking('Future.result', awaited, timeout, call.place)
     lost_tasks.note_asked_at_once(machine.world, receiver, call.place)
     return result_of(machine, receiver, call.place)
 
@@ -145,7 +147,9 @@ def _future_exception(machine: RosMachine, receiver: Value, call: Call) -> Value
     assert isinstance(receiver, Instance)
     if receiver.state.kind == OF_POOL:
         timeout = call.argument(0, 'timeout')
-        machine.note_blocking('Future.exception', receiver, timeout, call.place)
+        machine.note_blocking(
+            'Future.exception', waited_for(machine, receiver), timeout, call.place
+        )
     return machine.mystery('exception of a future', call.place, 'exception()')
 
 
