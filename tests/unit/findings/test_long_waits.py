@@ -11,7 +11,10 @@ import pytest
 from ros2cc_extract.cli.main import main
 
 NODE = """\
+import select
+import subprocess
 import threading
+import urllib.request
 
 import rclpy
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
@@ -87,6 +90,9 @@ main()
 RATES = 'for _ in range(3):\n            self.rate.sleep()'
 ANSWER = 'self.client.call(Trigger.Request(), timeout_sec=2.0)'
 EVENT = 'self.event.wait(timeout=2.0)'
+DEVICE = 'select.select([0], [], [], 1.5)'
+SERVER = "urllib.request.urlopen('http://robot', timeout=2.0)"
+CHILD = "subprocess.run(['scan'], timeout=5.0)"
 DEFAULT, OWN = 'None', 'MutuallyExclusiveCallbackGroup()'
 LONG_SLEEP, OVERLAP = 'CC201', 'CC304'
 
@@ -114,6 +120,11 @@ def line_of_mark(path: Path) -> int:
         (ANSWER, DEFAULT, 1.0, None),
         (EVENT, DEFAULT, 0.1, 'note'),
         (EVENT, OWN, 0.1, None),
+        (DEVICE, DEFAULT, 0.1, 'warning'),
+        (DEVICE, OWN, 0.1, None),
+        (DEVICE.replace('1.5', '0.01'), DEFAULT, 0.1, None),
+        (SERVER, DEFAULT, 0.1, 'warning'),
+        (CHILD, DEFAULT, 0.1, 'warning'),
     ],
 )
 def test_what_makes_a_timer_miss_its_runs_is_told(

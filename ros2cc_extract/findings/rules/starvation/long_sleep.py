@@ -23,6 +23,7 @@ from ros2cc_extract.findings.waits.long_held_locks import LongHold, long_holds
 from ros2cc_extract.findings.waits.remedies import AWAIT_SLEEP, is_on_loop
 from ros2cc_extract.findings.waits.waits import AnyWait, Wait, WaitKind, waits_of
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
+from ros2cc_extract.spec.effects import OUTSIDE
 from ros2cc_extract.spec.model import Callback, EntityKind, Executor
 from ros2cc_extract.verify.results.rates import least_slept_s, period_of
 
@@ -89,7 +90,15 @@ def _is_pause(wait: Wait) -> bool:
     """Whether it is a sleep, or ends after a time in any case, as one does if nothing comes."""
     if wait.caller.entity is EntityKind.ACTION_EXECUTE:
         return False
-    return _is_sleep(wait) or (wait.block.call in _TIMED and not wait.needs)
+    is_timed = wait.block.call in _TIMED and not wait.needs
+    return _is_sleep(wait) or is_timed or _is_of_others(wait)
+
+
+def _is_of_others(wait: AnyWait) -> bool:
+    """Whether a device or another program ends it: a read of a socket, a child, a request."""
+    wakers = wait.block.wakers
+    is_outside = bool(wakers) and all(waker.by == OUTSIDE for waker in wakers)
+    return wait.kind is WaitKind.OTHER and is_outside and wait.has_timeout
 
 
 def _as_timed(wait: Wait, context: Context) -> Wait:
@@ -217,7 +226,9 @@ def _help(wait: Wait, executor: Executor) -> str:
         return AWAIT_SLEEP
     own = '' if is_one_thread(executor) else ', or give the callback a group of its own'
     rest = 'do the rest in a timer that cancels itself'
-    if not _is_sleep(wait):
+    if _is_of_others(wait):
+        rest = 'wait in a thread of its own, or ask without waiting whether something is there'
+    elif not _is_sleep(wait):
         rest = 'let a timer look whether it is over'
     return f'return at once, and {rest}{own}'
 
@@ -275,7 +286,8 @@ RULE = Rule(
     'is held over a long sleep, or over a loop that sleeps in each iteration, where other '
     'callbacks take the lock: an execute callback that holds it during its whole run delays '
     'the cancel request. A wait with a time-out counts too: it lasts that long if nothing '
-    'arrives. So does a sleep by a `Rate`. It is only a note where a timer misses five runs '
+    'arrives, also one for a device, a child process or a server (`select.select(…, 1.0)`). So '
+    'does a sleep by a `Rate`. It is only a note where a timer misses five runs '
     'but something may end the wait sooner, and where only the services that rclpy itself '
     'creates wait: they are rarely called, and go on afterwards. Iterations of a loop are '
     'counted where their number is known, as the most where the loop may be left before, and '
