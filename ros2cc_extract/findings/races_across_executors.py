@@ -48,7 +48,7 @@ def _of_program(units: Sequence[Spec]) -> Iterator[Finding]:
 def _parts(unit: Spec, classes: frozenset[str] | None) -> Iterator[Doer]:
     for callback in shared_by(Context(unit)):
         part = shared_part(callback, classes)
-        if part.writes or part.pieces:
+        if part.writes or part.pieces or part.reads:
             yield part
 
 

@@ -70,3 +70,12 @@ def test_two_nodes_of_one_pool_change_one_helper_object():
     assert codes('Ledger.total') == ['CC301:30 warning']
     assert codes('Ledger.total', 'guard') == []
     assert codes('Arm.total') == []
+
+
+def test_one_executor_goes_over_what_another_changes():
+    loop = Access(name='Board.entries', source=at(20), iterates='dict')
+    reader = timer('show', 'arm_default', node='arm', cls='Arm', reads=(loop,))
+    assert told(program(reader, adds('Board.entries'))) == []
+    change = Access(name='Board.entries', source=at(30), update=True, in_place=True)
+    writer = timer('note', 'arm_default', node='arm', cls='Arm', writes=(change,))
+    assert told(program(reader, writer)) == ['CC301']
