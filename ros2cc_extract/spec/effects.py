@@ -178,7 +178,9 @@ BEGINS = '…'
 """Behind the beginning of a key."""
 
 FLAG = ' (flag)'
-ADDS, TAKES, EMPTIES = 'adds', 'takes', 'empties'
+ADDS, TAKES, TAKES_ANY, EMPTIES = 'adds', 'takes', 'takes any', 'empties'
+COPIED, BY_INDEX = 'a copy', 'by index'
+"""How a collection is gone over without asking it for the next item each time."""
 CANCELS = 'cancel'
 """The name of the change by which a timer ends itself after it has waited."""
 ABORTS = 'abort'
@@ -203,8 +205,10 @@ class Access:
         global lock, lets no other thread in since that was read (``self.n += 1``).
     :param keeps_size: true for ``d[k] = v`` where the set-up has put in ``k``.
     :param moves: ``adds`` for one that puts in an item and takes none out, ``takes`` for one that
-        takes an item out, ``empties`` for one that takes out all.
-    :param iterates: class of the collection, where a loop goes over it.
+        takes a certain item out, ``takes any`` for one that takes out the next, and fails uncaught
+        where there is none, ``empties`` for one that takes out all.
+    :param iterates: class of the collection, where a loop goes over it; ``COPIED`` where all items
+        are taken at once (``list(d)``), ``BY_INDEX`` where it counts through the indices.
     :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``;
         or how its key begins, where that is a text: ``'a'…``.
     :param chosen: true for a change of the item that a look at the collection has led to, or

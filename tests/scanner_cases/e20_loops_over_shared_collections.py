@@ -53,8 +53,8 @@ def main():
 #     reads Table.last iterates deque @25
 #     reads Table.lines iterates list @27
 #   timer copy in table_default every 2
-#     reads Table.seen @31
-#     reads Table.names @33
+#     reads Table.seen iterates a copy @31
+#     reads Table.names iterates a copy @33
 #   subscription on_msg in table_default key=in
 #     reads Table.seen @37
 #     writes Table.seen update in_place @37

@@ -73,8 +73,8 @@ if __name__ == '__main__':
 #     reads A.door @39
 #     reads A.door @40
 #     reads A.door @41
-#     reads A.door @42
-#     reads A.names @43
+#     reads A.door item 'key' @42
+#     reads A.names item 'a' @43
 #     reads A.door @44
 #   timer wait_for_others in a_default every 1
 #     blocks Event.wait on given @47

@@ -25,6 +25,11 @@ def is_other_item(one: Access, other: Access) -> bool:
     return letters[:shared] != beginning[:shared]
 
 
+def is_same_item(one: Access, other: Access) -> bool:
+    """True for one item of one container, by its constant key."""
+    return one.item is not None and one.item == other.item and not one.item.endswith(BEGINS)
+
+
 def _letters(item: str) -> str | None:
     """What stands between the quotes of a text, whose escapes are the same in each."""
     quoted = item.removesuffix(BEGINS)

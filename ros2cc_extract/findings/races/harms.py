@@ -6,6 +6,8 @@ from collections.abc import Iterator
 
 from ros2cc_extract.findings.base.rule import Doer
 from ros2cc_extract.findings.races.critical_sections import (
+    is_other_item,
+    is_same_item,
     keep_apart,
     kept_between,
     read_for,
@@ -14,7 +16,7 @@ from ros2cc_extract.findings.races.critical_sections import (
     writes_of,
 )
 from ros2cc_extract.findings.races.lifecycle import comes_before
-from ros2cc_extract.findings.races.uses import Use, may_meet
+from ros2cc_extract.findings.races.uses import Use, are_unordered, may_meet
 from ros2cc_extract.spec.effects import Access
 from ros2cc_extract.spec.program_order import steps
 
@@ -46,8 +48,7 @@ def uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
                     (Use(user, use), Use(clearer, write))
                     for write in clears
                     if not keep_apart(kept, write.locks)
-                    and not comes_before(use, user, clearer)
-                    and not comes_before(write, clearer, user)
+                    and are_unordered(Use(user, use), Use(clearer, write))
                 )
 
 
@@ -65,8 +66,12 @@ def torn_states(one: Doer, other: Doer, pauses: Doer | None = None) -> Iterator[
 
 
 def written_before(last: Access, writer: Doer) -> Access | None:
-    """The write of the attribute that stands before ``last``."""
-    firsts = [each for each in writes_of(writer).get(last.joins or '', ()) if not each.in_place]
+    """The write of the attribute, or of another item, that stands before ``last``."""
+    firsts = [
+        each
+        for each in writes_of(writer).get(last.joins or '', ())
+        if each.in_place == last.in_place and (not last.in_place or is_other_item(each, last))
+    ]
     before = [each for each in firsts if steps(each) < steps(last)]
     return max(before, key=steps, default=None)
 
@@ -77,7 +82,11 @@ def _read_together(
     """The reads of both attributes, unless a lock is held over these and over the writes."""
     kept = kept_between(*writes, writer)
     found = [
-        [read for _, read in reads_of(reader).get(write.name, ()) if not read.compared]
+        [
+            read
+            for _, read in reads_of(reader).get(write.name, ())
+            if not read.compared and (not write.in_place or is_same_item(read, write))
+        ]
         for write in writes
     ]
     if not all(found):

@@ -1,9 +1,10 @@
 """
-Loops over a collection that others change meanwhile.
+Collections whose items others add or take meanwhile.
 
 A loop over a dictionary, set or deque notices that its size changes. One over a list does not;
 but a callback that goes over what has come and then empties the list loses what others put in
-between its last look and that.
+between its last look and that. Code that counts through the indices, or has found that there is an
+item, fails where others have taken it out.
 """
 
 from __future__ import annotations
@@ -11,12 +12,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.findings.base.rule import Doer
-from ros2cc_extract.findings.races.critical_sections import keep_apart, kept_between
-from ros2cc_extract.findings.races.uses import Use, may_meet
-from ros2cc_extract.spec.effects import ADDS, EMPTIES
+from ros2cc_extract.findings.races.critical_sections import (
+    is_same_item,
+    keep_apart,
+    kept_between,
+    read_for,
+    waits,
+)
+from ros2cc_extract.findings.races.uses import Use, are_unordered, may_meet
+from ros2cc_extract.spec.effects import ADDS, BY_INDEX, EMPTIES, TAKES, TAKES_ANY
 from ros2cc_extract.spec.program_order import steps
 
 _NOTICING = frozenset({'dict', 'set', 'deque'})
+_FEWER = frozenset({TAKES, TAKES_ANY, EMPTIES})
 
 
 def changed_in_loop(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
@@ -50,5 +58,38 @@ def emptied(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
                 if write.name == clear.name
                 and write.moves == ADDS
                 and not keep_apart(held, write.locks)
-                and may_meet(Use(looper, clear), Use(giver, write))
+                and are_unordered(Use(looper, clear), Use(giver, write))
+            )
+
+
+def shrunk_in_loop(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """Loops of one through the indices of a list from which the other takes items."""
+    for looper, taker in ((one, other), (other, one)):
+        for read in looper.reads:
+            if read.iterates == BY_INDEX:
+                yield from (
+                    (Use(looper, read), Use(taker, write))
+                    for write in taker.writes
+                    if write.name == read.name
+                    and write.moves in _FEWER
+                    and may_meet(Use(looper, read), Use(taker, write))
+                )
+
+
+def taken_in_between(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """Items that one takes because it has found some and waited, while the other takes some."""
+    for finder, taker in ((one, other), (other, one)):
+        for take in (write for write in finder.writes if write.moves == TAKES_ANY and write.rests):
+            look = read_for(take, finder)
+            if look is None or not waits(look, take, finder):
+                continue
+            held = kept_between(look, take, finder)
+            yield from (
+                (Use(finder, take), Use(taker, write))
+                for write in taker.writes
+                if write.name == take.name
+                and write.moves in _FEWER
+                and (take.item is None or is_same_item(take, write))
+                and not keep_apart(held, write.locks)
+                and are_unordered(Use(finder, take), Use(taker, write))
             )

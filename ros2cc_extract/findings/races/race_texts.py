@@ -21,6 +21,7 @@ def describe(race: Race) -> str:
     names = listing(race.names, limit=4)
     it = 'it' if len(race.names) == 1 else 'them'
     old = 'its old value' if len(race.names) == 1 else 'their old values'
+    some = 'a part of it' if len(race.names) == 1 else 'some of them'
     return {
         RaceKind.CHANGED_IN_LOOP: f'{first} iterates over {names}, and {others} may change '
         f'the size of {it} meanwhile: Python raises RuntimeError in the loop',
@@ -30,6 +31,10 @@ def describe(race: Race) -> str:
         f'piece: {"the message" if _is_sent(race) else it} is half old and half new',
         RaceKind.EMPTIED: f'{first} iterates over {names} and then empties {it}, and {others} may '
         'put something in before that: it is lost',
+        RaceKind.SHRUNK_IN_LOOP: f'{first} goes over {names} by index, and {others} may take '
+        'items out meanwhile: Python raises IndexError in the loop',
+        RaceKind.TAKEN: f'{first} finds an item in {names} and then takes one out, and {others} '
+        'may take the last one in between: then it raises an exception',
         RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
         'at the same time: one change can get lost',
         RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '
@@ -38,8 +43,8 @@ def describe(race: Race) -> str:
         f'{others} may change {it} in between: what was read may no longer hold',
         RaceKind.WHOLE_UPDATE: f'{first} updates {names} from {old} without a lock, and {others} '
         f'may write {it} at the same time: {IN_ONE_PIECE}',
-        RaceKind.TORN_STATE: f'{first} reads {names}, and {others} may have written only some of '
-        'them by then: new values stand beside old ones',
+        RaceKind.TORN_STATE: f'{first} reads {names}, and {others} may have written only {some} '
+        'by then: new values stand beside old ones',
         RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {names} at the same time: the '
         'last one wins',
     }[race.kind]

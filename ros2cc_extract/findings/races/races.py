@@ -22,6 +22,7 @@ from ros2cc_extract.findings.races.critical_sections import (
     is_operand,
     is_other_item,
     is_read_before,
+    is_same_item,
     keep_apart,
     kept_between,
     read_acted_on,
@@ -37,7 +38,12 @@ from ros2cc_extract.findings.races.harms import (
     written_before,
 )
 from ros2cc_extract.findings.races.lifecycle import comes_before
-from ros2cc_extract.findings.races.loops_over_data import changed_in_loop, emptied
+from ros2cc_extract.findings.races.loops_over_data import (
+    changed_in_loop,
+    emptied,
+    shrunk_in_loop,
+    taken_in_between,
+)
 from ros2cc_extract.findings.races.shared_objects import node_classes, shared_part
 from ros2cc_extract.findings.races.uses import Use
 from ros2cc_extract.findings.waits.concurrent_threads import (
@@ -51,7 +57,7 @@ from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.identity_memo import once
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, Act
+from ros2cc_extract.spec.effects import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, TAKES_ANY, Act
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.program_order import steps
 from ros2cc_extract.verify.results.evidence import Evidence
@@ -64,6 +70,8 @@ class RaceKind(Enum):
     CLEARED_IN_USE = 'cleared in use'
     TORN = 'torn'
     EMPTIED = 'emptied after a look'
+    SHRUNK_IN_LOOP = 'shrunk in a loop'
+    TAKEN = 'taken in between'
     LOST_UPDATE = 'lost update'
     CHECK_THEN_ACT = 'check then act'
     CHECK_THEN_CHANGE = 'check then change'
@@ -78,6 +86,8 @@ _OWN_HARM = (
     RaceKind.TORN,
     RaceKind.TORN_STATE,
     RaceKind.EMPTIED,
+    RaceKind.SHRUNK_IN_LOOP,
+    RaceKind.TAKEN,
 )
 """What not every other write does."""
 LOSING = (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT, RaceKind.WHOLE_UPDATE)
@@ -122,10 +132,11 @@ class Race:
         return (*self.names, *dict.fromkeys(use.doer.name for use in callbacks))
 
     @property
-    def is_over_wait(self) -> bool:
-        """Whether the other waits between its writes of attributes that are of one thing."""
+    def is_meant_whole(self) -> bool:
+        """Whether what the other writes in pieces belongs together, and shows for sure."""
         return any(
-            last.akin and waits(first, last, use.doer)
+            (last.akin and waits(first, last, use.doer))
+            or bool(kept_between(first, last, use.doer))
             for use in self.others
             for last in use.doer.writes
             if last.name in self.names and (first := written_before(last, use.doer)) is not None
@@ -250,6 +261,8 @@ def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
     written = {access.name for access in one.writes} & {access.name for access in other.writes}
     others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in changed_in_loop(one, other)]
     others += [(RaceKind.EMPTIED, *pair) for pair in emptied(one, other)]
+    others += [(RaceKind.SHRUNK_IN_LOOP, *pair) for pair in shrunk_in_loop(one, other)]
+    others += [(RaceKind.TAKEN, *pair) for pair in taken_in_between(one, other)]
     others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(one, other)]
     others += [(RaceKind.TORN, *pair) for pair in torn_messages(one, other)]
     others += [(RaceKind.TORN_STATE, *pair) for pair in torn_states(one, other)]
@@ -337,6 +350,7 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
             continue
         is_wanted = read_acted_on(first.access, first.doer, second.access) is not None
         is_wanted = is_wanted or (first.access.rests and not first.access.in_place)
+        is_wanted = is_wanted or _is_old_item(first, second)
         is_wanted = is_wanted and not _changes_nothing(first, second)
         if is_wanted and _is_read_before(first, second):
             return RaceKind.CHECK_THEN_ACT, first, second
@@ -378,9 +392,20 @@ def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
     return None
 
 
+def _is_old_item(first: Use, second: Use) -> bool:
+    """Whether an item gets what was computed from itself, and the other stores the same one."""
+    write = first.access
+    return (
+        write.in_place
+        and write.chosen
+        and is_same_item(write, second.access)
+        and any(is_same_item(read, write) for _, read in reads_of(first.doer).get(write.name, ()))
+    )
+
+
 def _leaves_enough(first: Use, second: Use) -> bool:
     """Code that takes an item out because there is one finds one, if others only put items in."""
-    return first.access.moves == TAKES and second.access.moves == ADDS
+    return first.access.moves in (TAKES, TAKES_ANY) and second.access.moves == ADDS
 
 
 def _leaves_as_found(first: Use, second: Use) -> bool:

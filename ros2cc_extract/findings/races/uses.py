@@ -26,8 +26,13 @@ class Use:
 
 def may_meet(first: Use, second: Use) -> bool:
     """Whether no common lock keeps them apart, and neither is over before the other begins."""
+    is_locked = keep_apart(first.access.locks, second.access.locks)
+    return not is_locked and are_unordered(first, second)
+
+
+def are_unordered(first: Use, second: Use) -> bool:
+    """Whether neither is over before the other begins."""
     return not (
-        keep_apart(first.access.locks, second.access.locks)
-        or comes_before(second.access, second.doer, first.doer)
+        comes_before(second.access, second.doer, first.doer)
         or comes_before(first.access, first.doer, second.doer)
     )

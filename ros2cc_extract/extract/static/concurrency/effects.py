@@ -10,6 +10,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     closure_cells,
     collection_aliases,
     flag_locks,
+    iterations,
     kept_threads,
     lost_notifications,
     signal_locks,
@@ -166,7 +167,8 @@ class Effects(Waits):
         is_import = isinstance(reading.stored, (Library, Module))
         if kind is AccessKind.WRITE:
             flag_locks.put_up(self.world, name)
-        joins, is_akin = torn_state.written_with(self.world, name, is_stored)
+        item = reading.items.get(at)
+        joins, is_akin = torn_state.written_with(self.world, name, item, kind)
         access = Access(
             name=name,
             source=place,
@@ -179,7 +181,7 @@ class Effects(Waits):
             keeps_size=self.world.refilling,
             moves=EMPTIES if _is_emptied(kind, reading.stored) else self.world.moves,
             iterates=self.world.iterating,
-            item=reading.items.get(at),
+            item=item,
             chosen=chosen,
             rests=is_used or (rests and not (is_read or (is_stored and is_import))),
             compared=is_read and at in reading.compared,
@@ -194,12 +196,7 @@ class Effects(Waits):
             turn=() if is_read or is_content else self._turn_of_store(),
             chain=self.world.chain[1:],
         )
-        accesses = effects.reads if is_read else effects.writes
-        if access.iterates is not None:
-            plain = replace(access, iterates=None)
-            if plain in accesses[-RECENT:]:
-                accesses.remove(plain)
-        note_once(accesses, access)
+        _note_closer(effects.reads if is_read else effects.writes, access)
         if kind is AccessKind.WRITE:
             flag_locks.put_down(self.world, name)
             reading.forget(name, self.world.path)
@@ -216,18 +213,18 @@ class Effects(Waits):
         for hold in lost_notifications.holds_of(self.world):
             effects.stored.setdefault(hold, set()).add(name)
 
-    def note_iteration(self, node: ast.expr, frame: Frame) -> None:
-        """A loop goes over what ``node`` gives; over a copy of it nothing happens."""
+    def note_iteration(self, node: ast.expr, frame: Frame, how: str | None = None) -> None:
+        """Code goes over what ``node`` gives; over a copy of it nothing happens."""
         if self.world.effects is None:
             return
-        for target in _iterated(node):
+        for target in iterations.iterated(node):
             if isinstance(target, ast.Call) and not self._is_getter(target, frame):
                 continue
             noted, self.world.effects = self.world.effects, None
             values = options_of(self.evaluate(target, frame))
             self.world.effects = noted
             kinds = [collection_class(v) for v in values if isinstance(v, Collection)]
-            self.world.iterating = kinds[0] if kinds else None
+            self.world.iterating = (how or kinds[0]) if kinds else None
             if kinds:
                 self.note_update(target, frame, AccessKind.READ)
             self.world.iterating = None
@@ -274,7 +271,7 @@ class Effects(Waits):
         self, target: ast.expr, attribute: str, frame: Frame, kind: AccessKind
     ) -> bool:
         """What a name, a property or a getter gives is what an attribute holds; is it known?"""
-        if kind not in _OF_CONTENT or not self.world.homes:
+        if kind is AccessKind.WRITE or not self.world.homes:
             return False
         noted, self.world.effects = self.world.effects, None
         held = self.evaluate(target, frame)
@@ -427,23 +424,12 @@ class Effects(Waits):
         self.note_acquire(value, place)
 
 
-_VIEWS = frozenset({'items', 'keys', 'values'})
-_PASSING_ON = frozenset({'enumerate', 'zip', 'reversed', 'iter', 'map', 'filter'})
-
-
-def _iterated(node: ast.expr) -> Iterator[ast.expr]:
-    """What a loop over ``node`` goes over, by the names it is known under."""
-    if isinstance(node, (ast.Attribute, ast.Name)):
-        yield node
-    elif isinstance(node, ast.Call):
-        function = node.func
-        if isinstance(function, ast.Attribute) and function.attr in _VIEWS:
-            yield from _iterated(function.value)
-        elif isinstance(function, ast.Name) and function.id in _PASSING_ON:
-            for argument in node.args:
-                yield from _iterated(argument)
-        else:
-            yield node
+def _note_closer(accesses: list[Access], access: Access) -> None:
+    """Note an access, in place of what is known of it as that of no loop."""
+    plain = replace(access, iterates=None)
+    if plain != access and plain in accesses[-RECENT:]:
+        accesses.remove(plain)
+    note_once(accesses, access)
 
 
 def _owner_of(name: str, frame: Frame) -> Scope | None:

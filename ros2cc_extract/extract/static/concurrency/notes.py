@@ -13,6 +13,7 @@ from contextlib import AbstractContextManager, contextmanager
 from ros2cc_extract.extract.static.concurrency.accesses import (
     atomic_updates,
     flag_locks,
+    iterations,
     kept_threads,
     lost_notifications,
     torn_state,
@@ -33,6 +34,7 @@ from ros2cc_extract.extract.static.python.machine.path_facts import Implied
 from ros2cc_extract.extract.static.python.objects.escape import reached
 from ros2cc_extract.extract.static.python.values.values import Instance, Value
 from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import BY_INDEX, COPIED
 
 
 class Notes(Effects):
@@ -43,8 +45,18 @@ class Notes(Effects):
         torn_updates.note_changed(self, target, frame, how)
 
     def note_call(self, function: Value, node: ast.Call, frame: Frame) -> None:
-        """A call may publish an object as a whole."""
+        """A call may publish an object as a whole, or take all items of a collection."""
         torn_updates.note_sent(self, function, node, frame)
+        rows = iterations.taken_at_once(function, node)
+        if rows is not None:
+            self.note_iteration(rows, frame, COPIED)
+
+    def note_for(self, node: ast.For | ast.AsyncFor, frame: Frame) -> None:
+        """It goes over a collection, itself or by its indices."""
+        self.note_iteration(node.iter, frame)
+        rows = iterations.by_index(node) if isinstance(node, ast.For) else None
+        if rows is not None:
+            self.note_iteration(rows, frame, BY_INDEX)
 
     def in_one_piece(
         self, node: ast.Assign | ast.AugAssign, frame: Frame

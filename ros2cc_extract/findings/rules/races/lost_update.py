@@ -27,7 +27,7 @@ def hit_of(race: Race, message: str = '', help_text: str = '') -> Hit:
     is_free = race.is_outside_groups or race.has_threads
     is_less = race.kind in (RaceKind.CHECK_THEN_CHANGE, RaceKind.WHOLE_UPDATE)
     is_less = is_less or (race.kind is RaceKind.CHECK_THEN_ACT and race.is_flag)
-    is_less = is_less or (race.kind is RaceKind.TORN_STATE and not race.is_over_wait)
+    is_less = is_less or (race.kind is RaceKind.TORN_STATE and not race.is_meant_whole)
     return Hit(
         place=race.first.place,
         message=describe(race) + message,
@@ -53,13 +53,17 @@ RULE = Rule(
     'and one of them waits before it changes that item. A loop over a dictionary, set or '
     'deque that another callback changes meanwhile raises RuntimeError; a collection that is '
     'passed to a helper or a thread is still the same one, a copy (`list(d.items())`) is not. '
-    'A loop over a list that is emptied behind it loses what others put in meanwhile. A '
+    'A loop over a list, or a copy of it, that is emptied behind it loses what others put in '
+    'meanwhile. Code that counts through the indices of a list from which others take items, or '
+    'that has found an item, waits, and takes one while others may take the last, fails by an '
+    'exception. A '
     'message that is kept and changed piece by piece (`self.msg.position[k] = x`, two fields '
     'one after the other) while another callback publishes it goes out half old and half new; '
     'a message that is created each time, or changed in one step, does not. Attributes that '
     'one callback writes one after the other, so that others may run in between, while '
-    'another reads them together, are a note; if it waits in between and both come from one '
-    'thing, a warning. Threads that the program starts, timer threads and pool tasks '
+    'another reads them together, are a note, and so are items of one container; it is a warning '
+    'if it waits in between and both come from one thing, or holds a lock over both. '
+    'Threads that the program starts, timer threads and pool tasks '
     'included, and `main` beside a thread that spins count like callbacks, on any executor. '
     'Accesses before the start of a thread or after its join, and those that exclusive '
     'branches keep apart, are not reported. A flag that one tests and both set to constants '

@@ -1,5 +1,5 @@
 """
-Attributes that are written one after the other, between which others may run.
+Attributes, or items of one container, that are written one after the other while others may run.
 
 ``self.x = msg.x; self.y = msg.y``: code that runs in between finds a new one beside an old one.
 Others may run in between where the function waits there, calls one of the program, or takes the
@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWo
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Stored
+from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.values.values import Const
 
 
@@ -57,22 +58,39 @@ def _taken_from(value: ast.expr, frame: Frame) -> frozenset[str]:
     )
 
 
-def written_with(world: ConcurrentWorld, name: str, is_stored: bool) -> tuple[str | None, bool]:
-    """The attribute that was written before ``name``, and whether both are of one thing."""
+def written_with(
+    world: ConcurrentWorld, name: str, item: str | None, kind: AccessKind
+) -> tuple[str | None, bool]:
+    """
+    The attribute that was written before ``name``, and whether both are of one thing.
+
+    :param item: of the container ``name``, which is stored where that is updated in place.
+    """
     effects, reading = world.effects, world.reading
-    if effects is None or not is_stored or _is_flag(reading):
+    if kind is AccessKind.WRITE:
+        item = None
+    elif kind is not AccessKind.UPDATE_IN_PLACE or item is None or world.moves is not None:
+        return None, False
+    if effects is None or _is_flag(reading):
         return None, False  # who finds it up finds what was stored before
-    whose = name.rpartition('.')[0], world.chain
+    whose = (name if item is not None else name.rpartition('.')[0]), world.chain
     before = effects.stored_last.get(whose)
     now = Stored(
-        name, world.path, effects.behind, reading.taken_from, reading.named, effects.begun
+        name, item, world.path, effects.behind, reading.taken_from, reading.named, effects.begun
     )
     effects.stored_last[whose] = now
-    if before is None or before.name == name or before.path != now.path:
+    if before is None or (before.name, before.item) == (name, item) or before.path != now.path:
         return None, False
     is_parted = (before.behind, before.begun) != (now.behind, now.begun)
     is_parted = is_parted or not before.taken_from.isdisjoint(now.taken_from)
-    return (before.name, not before.named.isdisjoint(now.named)) if is_parted else (None, False)
+    return (before.name, _are_akin(before, now)) if is_parted else (None, False)
+
+
+def _are_akin(before: Stored, now: Stored) -> bool:
+    """Whether the source names one thing in both values, or takes the second from the first."""
+    first = before.name.rpartition('.')[2]
+    is_from = any(named.rpartition('.')[2] == first for named in now.named)
+    return is_from or not before.named.isdisjoint(now.named)
 
 
 def _is_flag(reading: Reading) -> bool:

@@ -70,6 +70,16 @@ def decide_expression(machine: Machine, node: ast.IfExp, frame: Frame) -> bool |
     return _decide_tested(machine, node, frame.place(node), set(), frame, is_first=True)
 
 
+def evaluate_subject(machine: Machine, node: ast.Match, frame: Frame) -> None:
+    """What a ``match`` asks for: which of its cases holds rests on what is read here."""
+    reading, place, found = machine.world.reading, frame.place(node), set[str]()
+    calls = reading.calls
+    with reading.of(found):
+        machine.evaluate(node.subject, frame)
+    reading.tests[place] = frozenset(found) | computed_from(node.subject, frame.sources)
+    reading.tested_at[place] = calls
+
+
 def _decide_tested(
     machine: Machine,
     node: ast.If | ast.IfExp,

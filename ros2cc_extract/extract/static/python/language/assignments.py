@@ -150,7 +150,7 @@ class Assignments(Machine):
         if isinstance(owner, Fields) and isinstance(key, Const):
             self.store_field(owner.owner, str(key.value), value, frame.place(target))
             return
-        self.world.refilling = loops.has_key(owner, key)
+        self.world.refilling, self.world.reading.stored = loops.has_key(owner, key), value
         self.note_update(target.value, frame, AccessKind.UPDATE_IN_PLACE)
         self.world.refilling = False
         if isinstance(owner, Mapping):

@@ -8,11 +8,13 @@ from typing import Any
 from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS
 from ros2cc_extract.extract.static.python.branching import narrowed_types, open_tests
 from ros2cc_extract.extract.static.python.branching.order_of_text import Asked
+from ros2cc_extract.extract.static.python.language.try_blocks import is_lack_uncaught
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops, unset_globals
+from ros2cc_extract.extract.static.python.objects.element_keys import note_item
 from ros2cc_extract.extract.static.python.values.containers import Mapping
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
@@ -23,9 +25,10 @@ from ros2cc_extract.extract.static.python.values.values import (
     Native,
     Value,
 )
-from ros2cc_extract.spec.effects import ADDS, EMPTIES, TAKES
+from ros2cc_extract.spec.effects import ADDS, EMPTIES, TAKES, TAKES_ANY
 
 _OF_ONE_ITEM = frozenset({'pop', 'remove', 'discard'})
+_BY_KEY = frozenset({'get', 'setdefault'})
 
 
 def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
@@ -72,7 +75,7 @@ def _called(machine: Machine, call: ast.Call, frame: Frame) -> Value:
     function = machine.evaluate(node, frame)
     machine.world.refilling = node.attr == 'update' and _refills(machine, call, node.value, frame)
     machine.world.effects = noted
-    machine.world.moves = _MOVES.get(node.attr)
+    machine.world.moves = TAKES_ANY if _takes_any(machine, call) else _MOVES.get(node.attr)
     machine.note_update(node.value, frame, AccessKind.UPDATE_IN_PLACE)
     machine.world.moves, machine.world.refilling = None, False
     return function
@@ -88,6 +91,20 @@ def _refills(machine: Machine, call: ast.Call, owner: ast.expr, frame: Frame) ->
     return None not in keys and all(loops.has_key(known, Const(key)) for key in keys)
 
 
+def _takes_any(machine: Machine, call: ast.Call) -> bool:
+    """``d.popleft()``, ``d.pop(0)``: fails where nothing is left, and nobody catches that."""
+    if not isinstance(call.func, ast.Attribute) or call.func.attr not in _NEXT:
+        return False
+    at = call.args[0] if call.args else None
+    at = at.operand if isinstance(at, ast.UnaryOp) else at
+    is_next = at is None or (isinstance(at, ast.Constant) and type(at.value) is int)
+    is_next = is_next and len(call.args) < _WITH_DEFAULT
+    return is_next and is_lack_uncaught(machine)
+
+
+_WITH_DEFAULT = 2
+_NEXT = frozenset({'pop', 'popleft', 'popitem'})
+
 _MOVES = {
     **dict.fromkeys(('append', 'appendleft', 'add', 'extend', 'extendleft'), ADDS),
     **dict.fromkeys(('pop', 'popleft', 'popitem', 'remove', 'discard'), TAKES),
@@ -100,7 +117,9 @@ def _note_choice(machine: Machine, node: ast.Call, frame: Frame) -> None:
     function = node.func
     if machine.world.effects is None or not isinstance(function, ast.Attribute):
         return
-    if function.attr in _OF_ONE_ITEM and node.args:
+    if function.attr in _BY_KEY and node.args:
+        note_item(machine, function.value, node.args[0], frame)
+    elif function.attr in _OF_ONE_ITEM and node.args:
         sources, place = computed_from(node.args[0], frame.sources), frame.place(function.value)
         machine.world.reading.note_choice(function.value, sources, place)
 

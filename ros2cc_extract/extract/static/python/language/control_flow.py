@@ -107,8 +107,8 @@ def _arm(
 
 
 def run_match(machine: Machine, node: ast.Match, frame: Frame) -> int:
-    """Run a ``match``; each case may hold."""
-    machine.evaluate(node.subject, frame)
+    """Run a ``match``; each case may hold, and what it does rests on the subject."""
+    open_tests.evaluate_subject(machine, node, frame)
     bodies: list[Callable[[], int]] = [
         lambda case=case: _case(machine, case, frame)  # type: ignore[misc]
         for case in node.cases
@@ -143,7 +143,7 @@ def run_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int
     counting = loops_as_while.counting(node)
     begun = machine.begin_rounds(counting) if counting is not None else None
     values = open_tests.evaluate_iterated(machine, node, frame)
-    machine.note_iteration(node.iter, frame)
+    machine.note_for(node, frame)
     values = iterators.iterated(machine, values, place)
     step = iterators.next_of(machine, values, place)
     rounds = values if step is None else machine.mystery('as many rounds as it gives items', place)

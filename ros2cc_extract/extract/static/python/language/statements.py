@@ -25,7 +25,10 @@ from ros2cc_extract.extract.static.python.language.control_flow import (
     run_match,
     run_while,
 )
-from ros2cc_extract.extract.static.python.language.try_blocks import run_try
+from ros2cc_extract.extract.static.python.language.try_blocks import (
+    is_lack_uncaught,
+    run_try,
+)
 from ros2cc_extract.extract.static.python.language.with_blocks import run_with
 from ros2cc_extract.extract.static.python.machine import path_facts
 from ros2cc_extract.extract.static.python.machine.block_exits import (
@@ -60,6 +63,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Value,
 )
 from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import TAKES, TAKES_ANY
 
 
 class Statements(Machine):
@@ -383,7 +387,10 @@ def _delete_item(machine: Statements, target: ast.Subscript, frame: Frame) -> No
     machine.world.effects = noted
     method = machine.special_method(owner, '__delitem__', place)
     if method is None:
+        is_certain = isinstance(target.slice, ast.Constant) and is_lack_uncaught(machine)
+        machine.world.moves = TAKES_ANY if is_certain else TAKES
         machine.note_update(target, frame, AccessKind.UPDATE_IN_PLACE)
+        machine.world.moves = None
     else:
         machine.call(method, Call(place, [machine.evaluate(target.slice, frame)]))
 

@@ -33,7 +33,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import ADDS
+from ros2cc_extract.spec.effects import ADDS, COPIED
 
 
 def subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
@@ -44,12 +44,19 @@ def subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
     owner = machine.evaluate(node.value, frame)
     key = machine.evaluate(node.slice, frame)
     _note_filled(machine, owner, key, node, frame)
+    if _is_whole(node.slice):
+        machine.note_iteration(node.value, frame, COPIED)
     place = frame.place(node)
     found = choice(
         [_item(machine, option, key, node, frame) for option in options_of(owner)]
         or [machine.mystery('item that could not be followed', place, node)]
     )
     return choice(list(options_of(found))) if isinstance(found, Choice) else found
+
+
+def _is_whole(key: ast.expr) -> bool:
+    """``rows[:]``."""
+    return isinstance(key, ast.Slice) and key.lower is None and key.upper is None
 
 
 def _note_filled(

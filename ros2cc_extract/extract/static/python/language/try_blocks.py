@@ -74,6 +74,7 @@ def _catching(machine: Machine, caught: frozenset[str]) -> Iterator[None]:
 
 
 _ANYTHING = 'BaseException'
+_LACKING = frozenset({'IndexError', 'KeyError', 'LookupError', 'Exception', _ANYTHING})
 _TYPE_ERRORS = frozenset({'TypeError', 'Exception', _ANYTHING})
 
 
@@ -86,6 +87,11 @@ def _names_of(handler: ast.ExceptHandler) -> Iterator[str]:
     kinds = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
     for kind in kinds:
         yield _ANYTHING if kind is None else ast.unparse(kind)
+
+
+def is_lack_uncaught(machine: Machine) -> bool:
+    """Whether nobody catches that there is no such item."""
+    return all(_LACKING.isdisjoint(caught) for caught in machine.world.caught)
 
 
 def _catches_type_error(handler: ast.ExceptHandler) -> bool:

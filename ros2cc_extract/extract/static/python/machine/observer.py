@@ -50,8 +50,15 @@ class Observer:
     def note_part(self, target: ast.expr, frame: Frame, how: str = '') -> None:
         """An attribute or item of an object is stored, or a collection in it changes in place."""
 
-    def note_iteration(self, node: ast.expr, frame: Frame) -> None:
-        """A loop goes over a collection, which may not change in size meanwhile."""
+    def note_iteration(self, node: ast.expr, frame: Frame, how: str | None = None) -> None:
+        """
+        A loop goes over a collection, which may not change in size meanwhile.
+
+        :param how: it is done, see ``Access.iterates``, if not by asking for the next item.
+        """
+
+    def note_for(self, node: ast.For | ast.AsyncFor, frame: Frame) -> None:
+        """A loop begins; what it goes over is known."""
 
     def note_discarded(self, value: Value, place: Place) -> None:
         """A statement does nothing with the value of the call that it consists of."""

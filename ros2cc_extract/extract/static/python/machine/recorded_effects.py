@@ -34,6 +34,7 @@ class Stored:
     """
     An attribute gets a value, see ``torn_state.py``.
 
+    :param item: of the container in it, where that is what gets the value.
     :param behind: the last wait that lay behind it.
     :param taken_from: arguments of the function that the value was taken from.
     :param named: what the source names in the value.
@@ -41,6 +42,7 @@ class Stored:
     """
 
     name: str
+    item: str | None
     path: Path
     behind: object
     taken_from: frozenset[str]
