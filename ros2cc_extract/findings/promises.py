@@ -21,6 +21,8 @@ from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT,
 from ros2cc_extract.findings.waits.verdicts import NODE_KEPT, PROGRESS
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.light_dataclasses import dataclass
+from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import PAUSES
 from ros2cc_extract.spec.model import GroupType, Spec
 from ros2cc_extract.verify.results.load import LoadKind, Serving, demands_of, load_of
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
@@ -165,6 +167,7 @@ class _Unit:
             yield from self._open_waits(promise)
         if promise is Promise.STARVATION:
             yield from _overload(self.unit)
+            yield from _open_pauses(self.unit)
         if promise is Promise.RACES:
             yield from _copies(self.unit)
             yield from races_with_others(self.unit)
@@ -259,6 +262,16 @@ def _overload(unit: Spec) -> Iterator[str]:
         is_delay = load.kind is LoadKind.UNKNOWN and load.serving is not Serving.LEFTOVER
         if load.kind is not LoadKind.FINE and not is_delay:
             yield f'{callback.display_name}: {load.words}'
+
+
+def _open_pauses(unit: Spec) -> Iterator[str]:
+    """The sleeps of which it is not known how long they hold up others."""
+    for callback in unit.callbacks:
+        for block in callback.blocking:
+            if block.call in PAUSES and isinstance(block.seconds, Unknown):
+                at = f' at {block.source}' if block.source is not None else ''
+                why = block.seconds.reason
+                yield f'how long {callback.display_name} sleeps{at} is not known ({why})'
 
 
 def about(

@@ -53,6 +53,14 @@ TURN = 'yield'
 AWAIT = 'await'
 """How a coroutine waits; with a blank and a name behind it, in an operation of asyncio."""
 
+BUSY_LOOP = 'busy loop'
+"""A loop that asks a clock again and again until some time is over, and does nothing else."""
+
+PAUSES = frozenset(
+    {'time.sleep', 'asyncio.sleep', 'Clock.sleep_for', 'Clock.sleep_until', BUSY_LOOP}
+)
+"""Calls that take a time which is given to them."""
+
 ENDLESS_LOOP = 'endless loop'
 """A loop that no known code leaves."""
 
@@ -224,7 +232,8 @@ class Access:
     :param compared: true for a read that only asks whether it is still what the code has in a
         name of its own.
     :param admits: true for a read of a goal callback because of which it turns goals down.
-    :param later: true for the use of an object where something was called since it was tested.
+    :param later: true for the use of an object where something was called since it was tested, and
+        for the write of a value where something was called since that was read.
     :param joins: of a write, the attribute of the same object that was written before it, where
         others may run between the two.
     :param akin: both values were taken from one thing.

@@ -56,7 +56,7 @@ if __name__ == '__main__':
 #     writes A.told @30
 #     writes A.state @31
 #     writes A.pose rests @32
-#     writes A.seen rests @33
+#     writes A.seen rests later @33
 #   subscription on_pose in a_default key=pose
 #     writes A.pose @36
 #     writes A.told @36

@@ -90,7 +90,7 @@ if __name__ == '__main__':
 #     reads Machine.state @56
 #     reads Search.timer @56>18
 #     reads Machine.state @56>36
-#     writes Machine.state rests @56
+#     writes Machine.state rests later @56
 #     writes Search.timer rests under Search.timer (flag) @56>19
 #     writes Machine.state @56>35
 #     changes timer @56>19

@@ -35,4 +35,4 @@ if __name__ == '__main__':
 #   group walker_default EXCLUSIVE default
 #   timer update in walker_default every 0.1
 #     reads Walker.state @22
-#     writes Walker.state rests @22
+#     writes Walker.state rests later @22

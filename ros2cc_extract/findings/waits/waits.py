@@ -27,6 +27,7 @@ from ros2cc_extract.spec.client_server_pairs import (
 )
 from ros2cc_extract.spec.effects import (
     ANSWER_LOOP,
+    BUSY_LOOP,
     POLLING_LOOP,
     RECURSION_LIMIT,
     TIME,
@@ -70,6 +71,7 @@ _KINDS = {
     'Rate.sleep': WaitKind.RATE,
     SPIN_FOR_FUTURE: WaitKind.SPUN_FUTURE,
     'time.sleep': WaitKind.SLEEP,
+    BUSY_LOOP: WaitKind.SLEEP,
     'wait_for_service': WaitKind.PRESENCE,
     'wait_for_server': WaitKind.PRESENCE,
     'BufferClient.lookup_transform': WaitKind.ANSWER,

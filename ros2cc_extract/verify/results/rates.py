@@ -11,10 +11,8 @@ from dataclasses import replace
 
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.effects import PAUSES, Blocking
 from ros2cc_extract.spec.model import Callback, EntityKind, Spec
-
-_PAUSES = ('time.sleep', 'asyncio.sleep', 'Clock.sleep_for', 'Clock.sleep_until')
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,7 +129,7 @@ def _duration_s(callback: Callback) -> tuple[float | None, bool]:
 
 def least_slept_s(blocking: Iterable[Blocking]) -> float:
     """Seconds that a run sleeps on every branch."""
-    slept = [b for b in blocking if b.call in _PAUSES and not b.conditional]
+    slept = [b for b in blocking if b.call in PAUSES and not b.conditional]
     return sum(b.seconds * b.times for b in slept if isinstance(b.seconds, (int, float)))
 
 

@@ -39,6 +39,7 @@ def told(*callbacks: Callback, executor: int = 3) -> list[str]:
 
 
 WAITING = {'blocking': sleeps(0.2, line=25)}
+CALLED_BETWEEN = {'reads': (access(20),), 'writes': (access(30, rests=True, later=True),)}
 READ_THEN_WRITTEN = {'reads': (access(20),), 'writes': (access(30, rests=True),)}
 WRITTEN_THEN_READ = {'reads': (access(30),), 'writes': (access(20),)}
 
@@ -48,6 +49,7 @@ WRITTEN_THEN_READ = {'reads': (access(30),), 'writes': (access(20),)}
     [
         (service('on_go', 'free', **READ_THEN_WRITTEN, **WAITING), ['CC304:30 warning']),
         (service('on_go', 'free', **READ_THEN_WRITTEN), ['CC304:30 note']),
+        (service('on_go', 'free', **CALLED_BETWEEN), ['CC304:30 warning']),
         (service('on_go', 'other', **READ_THEN_WRITTEN, **WAITING), []),
         (
             timer('tick', 'free', period_s=0.1, **READ_THEN_WRITTEN, **WAITING),

@@ -155,7 +155,7 @@ class Effects(Waits):
         is_read, reading = kind is AccessKind.READ, self.world.reading
         is_stored = kind is AccessKind.WRITE
         if is_read:
-            reading.read.add(name)
+            reading.note_read(name)
         at = place, attribute or name.rpartition('.')[2]
         is_content = kind is AccessKind.UPDATE_IN_PLACE
         flows = name in reading.flowing
@@ -185,8 +185,9 @@ class Effects(Waits):
             chosen=chosen,
             rests=is_used or (rests and not (is_read or (is_stored and is_import))),
             compared=is_read and at in reading.compared,
-            later=(is_used or (is_content and is_tested))
-            and reading.has_called_since(name, self.world.path),
+            later=reading.has_called_since(name, self.world.path)
+            if is_used or (is_content and is_tested)
+            else is_stored and flows and reading.has_called_since_read(name),
             clears=is_stored and reading.stored == NONE,
             lowers=is_stored and reading.stored != NONE and _is_false(reading.stored),
             found=reading.found_of(name, self.world.path) if is_stored else None,

@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops import (
     counted_tests,
     polling_loops,
     set_up_loops,
+    timed_loops,
 )
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import goes_round
 from ros2cc_extract.extract.static.program.text_queries import is_recursion
@@ -112,7 +113,8 @@ class Notes(Effects):
         """A loop may do nothing but wait."""
         if not goes_round(node):
             return None
-        before = polling_loops.mark(self)
+        length = timed_loops.length_of(self, node, frame)
+        before = polling_loops.mark(self, length)
         polling_loops.begin(self, node, frame, implied)
         return before
 
@@ -129,6 +131,8 @@ class Notes(Effects):
             return
         assert isinstance(begun, polling_loops.Mark)
         polling_loops.note(self, node, frame, begun)
+        if begun.length is not None:
+            timed_loops.note(self, node, frame, begun.length, begun.waits)
         if is_recursion(node):
             polling_loops.mark_recursive(self, node, frame, begun)
 

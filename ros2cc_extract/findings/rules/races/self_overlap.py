@@ -113,7 +113,8 @@ def _reported_of_others(
 
 
 def _severity(race: SelfRace, context: Context) -> Severity | None:
-    is_less = race.is_whole or (race.kind is SelfRaceKind.STALE_READ and not race.waits)
+    is_at_once = not race.waits and not race.use.access.later
+    is_less = race.is_whole or (race.kind is SelfRaceKind.STALE_READ and is_at_once)
     return Severity.NOTE if is_less or is_quick(race.callback, context) else None
 
 
@@ -163,7 +164,8 @@ RULE = Rule(
     'only a note for an update of a number with nothing but constants and names between its read '
     'and its write (`self.n += 1`, see CC301), for a timer whose runs are known to be shorter '
     'than its period, for a done-callback that one such timer alone requests, once in a run, and '
-    'for a test that is followed by the write without a wait in between. Where another callback '
+    'for a test, or a copy of the value, that is followed by the write without a wait in between, '
+    'and for the copy without a call either. Where another callback '
     'may lose the same update, CC301 or CC303 is reported instead. There is one finding for all '
     'callbacks that come to one line, and for all attributes of one callback.',
     why='The executor may take an entity again as soon as its data was taken; a reentrant group '

@@ -23,7 +23,7 @@ from ros2cc_extract.findings.waits.long_held_locks import LongHold, long_holds
 from ros2cc_extract.findings.waits.remedies import AWAIT_SLEEP, is_on_loop
 from ros2cc_extract.findings.waits.waits import AnyWait, Wait, WaitKind, waits_of
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
-from ros2cc_extract.spec.effects import OUTSIDE
+from ros2cc_extract.spec.effects import BUSY_LOOP, OUTSIDE
 from ros2cc_extract.spec.model import Callback, EntityKind, Executor
 from ros2cc_extract.verify.results.rates import least_slept_s, period_of
 
@@ -90,7 +90,7 @@ def _is_pause(wait: Wait) -> bool:
     """Whether it is a sleep, or ends after a time in any case, as one does if nothing comes."""
     if wait.caller.entity is EntityKind.ACTION_EXECUTE:
         return False
-    is_timed = wait.block.call in _TIMED and not wait.needs
+    is_timed = wait.block.call in _TIMED | _ENDS and not wait.needs
     return _is_sleep(wait) or is_timed or _is_of_others(wait)
 
 
@@ -102,13 +102,23 @@ def _is_of_others(wait: AnyWait) -> bool:
 
 
 def _as_timed(wait: Wait, context: Context) -> Wait:
-    """A sleep by a rate whose timer has a thread lasts a period of that timer."""
+    """A sleep by a rate lasts a period of its timer, and a join what the thread sleeps."""
     on = wait.block.on
     timer = context.by_name.get(on) if isinstance(on, str) else None
     is_rate = wait.kind is WaitKind.RATE and timer is not None
-    if not is_rate or timer is None or is_one_thread(context.unit.executor):
-        return wait
-    return replace(wait, block=replace(wait.block, seconds=timer.period_s))
+    if is_rate and timer is not None and not is_one_thread(context.unit.executor):
+        return replace(wait, block=replace(wait.block, seconds=timer.period_s))
+    slept = _slept_by_awaited(wait, context)
+    return replace(wait, block=replace(wait.block, seconds=slept)) if slept else wait
+
+
+def _slept_by_awaited(wait: Wait, context: Context) -> float:
+    """Seconds that the one thread or task sleeps whose end is waited for; none of another wait."""
+    by = {waker.by for waker in wait.block.wakers}
+    ends = [each for each in context.unit.activities if by == {each.name}]
+    if wait.has_timeout or wait.block.call not in _ENDS or not ends:
+        return 0.0
+    return least_slept_s(ends[0].blocking)
 
 
 def _is_sleep(wait: AnyWait) -> bool:
@@ -141,9 +151,15 @@ _TIMED = frozenset(
         'Thread.join',
         'Process.join',
         'Barrier.wait',
+        'Future.result',
+        'Lock.acquire',
+        'Semaphore.acquire',
     }
 )
 
+
+_ENDS = frozenset({'Thread.join', 'Process.join', 'Future.result', 'Executor.shutdown'})
+"""Waits for the end of a thread, a process or a task."""
 
 _ANSWERED = _TIMED | {'client.call'}
 
@@ -251,6 +267,8 @@ def _how_long(wait: AnyWait) -> str:
     assert isinstance(seconds, (int, float))
     most = ' up to' if wait.block.conditional else ''
     often = f'{most} {wait.block.times} times' if wait.block.times > 1 else ''
+    if wait.block.call == BUSY_LOOP:
+        return f'asks a clock in a loop for{most} {seconds:g} s{often}'
     if _is_sleep(wait):
         return f'sleeps {seconds:g} s{often}'
     return f'waits up to {seconds:g} s{often} in {wait.block.call}'
@@ -287,7 +305,8 @@ RULE = Rule(
     'callbacks take the lock: an execute callback that holds it during its whole run delays '
     'the cancel request. A wait with a time-out counts too: it lasts that long if nothing '
     'arrives, also one for a device, a child process or a server (`select.select(…, 1.0)`). So '
-    'does a sleep by a `Rate`. It is only a note where a timer misses five runs '
+    'does a sleep by a `Rate`, a loop that runs until a clock has moved on (`while time.time() < '
+    'end`), and a join of a thread that sleeps. It is only a note where a timer misses five runs '
     'but something may end the wait sooner, and where only the services that rclpy itself '
     'creates wait: they are rarely called, and go on afterwards. Iterations of a loop are '
     'counted where their number is known, as the most where the loop may be left before, and '

@@ -12,6 +12,7 @@ from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.effects import (
     ANSWER_LOOP,
     AWAIT,
+    BUSY_LOOP,
     NOT_FOLLOWED,
     OUTSIDE,
     TIME,
@@ -90,6 +91,7 @@ WAITS: dict[str, WaitRow] = {
     WORKING_LOOP: _FUTURE,
     'time.sleep': SLEEP,
     'asyncio.sleep': SLEEP,
+    BUSY_LOOP: SLEEP,
     TURN: SLEEP,
     ANSWER_LOOP: OF_OUTSIDE,
     **dict.fromkeys(CALLS, OF_OUTSIDE),

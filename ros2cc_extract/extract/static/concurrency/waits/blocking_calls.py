@@ -62,7 +62,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import AWAIT, TURN, UNKNOWN_WAIT, Blocking, Needs
+from ros2cc_extract.spec.effects import AWAIT, PAUSES, TURN, UNKNOWN_WAIT, Blocking, Needs
 from ros2cc_extract.spec.model import ActivityKind, When
 
 
@@ -111,7 +111,7 @@ class Waits(ConcurrentMachine):
         if world.open_loops:
             effects.looped.add(way_of(block))
         sure = tuple(number for number in world.round if number > 0)
-        _note_round(effects, block, world.round if name in _PAUSES else sure)
+        _note_round(effects, block, world.round if name in PAUSES else sure)
 
     def _block(
         self, name: str, on: Value | None, seconds: Value | None, place: Place
@@ -405,7 +405,6 @@ def _number(value: object) -> int | None:
     return number if isinstance(number, int) else None
 
 
-_PAUSES = frozenset({'time.sleep', 'Clock.sleep_for', 'Clock.sleep_until'})
 """What holds its thread longer where a loop may go round more often."""
 
 

@@ -62,7 +62,8 @@ class Reading:
     :param waited: where the value ends that is stored now, if it is waited for.
     :param value_end: where the value ends that is stored now.
     :param calls: how many calls there were.
-    :param tested_at: how many there were before a test, by its place.
+    :param tested_at: how many there were before a test, by its place; ``read_at`` before the last
+        read, by the name of what was read.
     :param refusing: names because of which a goal was turned down.
     :param asked: the tests of branches, by their place; ``loops`` those of the loops around.
     :param down: flags that were found down, by the step of the path on which they are.
@@ -91,6 +92,7 @@ class Reading:
     loops: list[Asked] = field(default_factory=list)
     calls: int = 0
     tested_at: dict[Place, int] = field(default_factory=dict)
+    read_at: dict[str, int] = field(default_factory=dict)
     passed: Path = ()
 
     @contextmanager
@@ -142,6 +144,15 @@ class Reading:
         self.refusing.update(found)
         for place, _ in self.behind(path):
             self.refusing |= self.tests.get(place, frozenset())
+
+    def note_read(self, name: str) -> None:
+        """Note that ``name`` is read here."""
+        self.read.add(name)
+        self.read_at[name] = self.calls
+
+    def has_called_since_read(self, name: str) -> bool:
+        """Whether something was called since ``name`` was read last."""
+        return self.calls > self.read_at.get(name, self.calls)
 
     def has_called_since(self, name: str, path: Path) -> bool:
         """Whether something was called since ``name`` was tested last."""

@@ -21,6 +21,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops import (
     item_loops,
     message_loops,
     retry_loops,
+    timed_loops,
 )
 from ros2cc_extract.extract.static.concurrency.waits.loops.counted_tests import rise_of
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import (
@@ -86,22 +87,26 @@ _OF_ROUNDS = retry_loops.RAISE_WHEN_OVER | {POLL, WORKING_LOOP, ANSWER_LOOP, 'bu
 
 @dataclass(frozen=True)
 class Mark:
-    """How much had been noted when a loop began."""
+    """
+    How much had been noted when a loop began.
+
+    :param length: how long it lasts, where only the time decides.
+    """
 
     waits: int
     writes: int
     own: int
     order: int
+    length: timed_loops.Length | None = None
 
 
-def mark(machine: ConcurrentMachine) -> Mark | None:
+def mark(machine: ConcurrentMachine, length: timed_loops.Length | None = None) -> Mark | None:
     """Before the loop; ``None`` where nothing is noted."""
     effects = machine.world.effects
-    return (
-        None
-        if effects is None
-        else Mark(len(effects.blocking), len(effects.writes), len(effects.own), len(effects.order))
-    )
+    if effects is None:
+        return None
+    waits, writes, own = len(effects.blocking), len(effects.writes), len(effects.own)
+    return Mark(waits, writes, own, len(effects.order), length)
 
 
 def begin(

@@ -1,0 +1,176 @@
+"""
+How long a loop lasts whose test only looks at a clock or counts its rounds.
+
+``end = time.time() + 2.0; while time.time() < end: time.sleep(0.1)`` sleeps two seconds in all,
+and so does ``i = 0; while i < 20: time.sleep(0.1); i += 1``. Without a sleep it is busy meanwhile.
+"""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import replace
+from math import ceil
+
+from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import CLOCKS, ROS_CLOCKS
+from ros2cc_extract.extract.static.program.text_queries import walk
+from ros2cc_extract.extract.static.python.machine.frame import Frame
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
+from ros2cc_extract.extract.static.python.values.values import Const
+from ros2cc_extract.light_dataclasses import dataclass
+from ros2cc_extract.spec.effects import BUSY_LOOP, PAUSES
+
+_CLOCKS = CLOCKS - ROS_CLOCKS - {'time_ns'}
+_GOES_ON = 'ok'
+"""``rclpy.ok()`` beside the test of the time changes nothing while the program runs."""
+
+
+@dataclass(frozen=True)
+class Length:
+    """Of a loop: the seconds or the rounds that it takes at most."""
+
+    seconds: float | None = None
+    rounds: int | None = None
+
+
+def length_of(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Length | None:
+    """Before the first round; ``None`` where more decides, or it is not known."""
+    test = _only_test(loop.test)
+    if test is None or machine.world.effects is None:
+        return None
+    less, more = test.left, test.comparators[0]
+    if isinstance(test.ops[0], (ast.Gt, ast.GtE)):
+        less, more = more, less
+    elif not isinstance(test.ops[0], (ast.Lt, ast.LtE)):
+        return None
+    noted, machine.world.effects = machine.world.effects, None
+    try:
+        with machine.world.reading.apart():
+            seconds = _seconds(machine, less, more, frame)
+            is_exact = isinstance(test.ops[0], (ast.Lt, ast.Gt))
+            rounds = _rounds(machine, loop, less, more, frame) if seconds is None else None
+    finally:
+        machine.world.effects = noted
+    if seconds is None and rounds is None:
+        return None
+    return Length(seconds, None if rounds is None else rounds + (not is_exact))
+
+
+def note(
+    machine: ConcurrentMachine, loop: ast.While, frame: Frame, length: Length, first: int
+) -> None:
+    """
+    After one round: it sleeps in each of them, or is busy all the time.
+
+    :param first: where the waits of the round begin.
+    """
+    effects = machine.world.effects or EffectLog()
+    inside, place = effects.blocking[first:], frame.place(loop)
+    if any(block.source == frame.place(part) for block in inside for part in _whole(loop)):
+        return  # it waits for data as a whole
+    pauses = [block for block in inside if block.call in PAUSES and not block.suspends]
+    slept = sum(b.seconds * b.times for b in pauses if isinstance(b.seconds, (int, float)))
+    rounds = length.rounds
+    if length.seconds is not None and slept > 0:
+        rounds = ceil(length.seconds / slept)
+    if rounds is not None and slept > 0:
+        effects.blocking[first:] = [
+            replace(block, times=block.times * max(1, rounds)) if block in pauses else block
+            for block in inside
+        ]
+    elif length.seconds is not None and not inside:
+        machine.note_blocking(BUSY_LOOP, None, Const(length.seconds), place)
+
+
+def _whole(loop: ast.While) -> tuple[ast.AST, ...]:
+    return loop, *(part for part in walk(loop.test) if isinstance(part, ast.expr))
+
+
+def _only_test(test: ast.expr) -> ast.Compare | None:
+    is_all = isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And)
+    parts = test.values if is_all and isinstance(test, ast.BoolOp) else [test]
+    asking = [part for part in parts if not _asks_whether_it_goes_on(part)]
+    only = asking[0] if len(asking) == 1 else None
+    return only if isinstance(only, ast.Compare) and len(only.ops) == 1 else None
+
+
+def _asks_whether_it_goes_on(test: ast.expr) -> bool:
+    called = test.func if isinstance(test, ast.Call) and not test.args else None
+    return isinstance(called, (ast.Attribute, ast.Name)) and _name(called) == _GOES_ON
+
+
+def _name(node: ast.Attribute | ast.Name) -> str:
+    return node.attr if isinstance(node, ast.Attribute) else node.id
+
+
+def _seconds(
+    machine: ConcurrentMachine, less: ast.expr, more: ast.expr, frame: Frame
+) -> float | None:
+    """``clock() < end``, or ``clock() - begun < seconds``."""
+    if _is_clock(less):
+        given = _stored(more, frame)
+        added = given if isinstance(given, ast.BinOp) and isinstance(given.op, ast.Add) else None
+        sides = () if added is None else (added.left, added.right)
+        later = [side for side in sides if not _is_clock(side)]
+        return _number(machine, later[0], frame) if len(later) == 1 else None
+    is_since = isinstance(less, ast.BinOp) and isinstance(less.op, ast.Sub)
+    if is_since and isinstance(less, ast.BinOp) and _is_clock(less.left):
+        return _number(machine, more, frame) if _is_clock(_stored(less.right, frame)) else None
+    return None
+
+
+def _rounds(
+    machine: ConcurrentMachine,
+    loop: ast.While,
+    less: ast.expr,
+    more: ast.expr,
+    frame: Frame,
+) -> int | None:
+    """``i < n`` where each round adds to ``i``, or takes from ``n``."""
+    begin, end = _number(machine, less, frame), _number(machine, more, frame)
+    steps = [_step(loop, side, sign) for side, sign in ((less, ast.Add), (more, ast.Sub))]
+    known = [step for step in steps if step is not None]
+    if begin is None or end is None or len(known) != 1:
+        return None
+    return ceil((end - begin) / known[0])
+
+
+def _step(loop: ast.While, counter: ast.expr, sign: type[ast.operator]) -> float | None:
+    """What each round adds, if nothing else stores the counter."""
+    if not isinstance(counter, ast.Name):
+        return None
+    stores = [
+        part
+        for part in walk(loop)
+        if isinstance(part, ast.Name) and part.id == counter.id and isinstance(part.ctx, ast.Store)
+    ]
+    for each in loop.body:
+        is_step = isinstance(each, ast.AugAssign) and isinstance(each.op, sign)
+        if is_step and isinstance(each, ast.AugAssign) and stores == [each.target]:
+            step = each.value.value if isinstance(each.value, ast.Constant) else None
+            return step if isinstance(step, (int, float)) and step > 0 else None
+    return None
+
+
+def _is_clock(node: ast.expr | None) -> bool:
+    called = node.func if isinstance(node, ast.Call) else None
+    return isinstance(called, (ast.Attribute, ast.Name)) and _name(called) in _CLOCKS
+
+
+def _stored(node: ast.expr, frame: Frame) -> ast.expr | None:
+    """What a name of the function holds, if it is stored once."""
+    if not isinstance(node, ast.Name) or frame.function is None:
+        return node
+    stored = [
+        part.value
+        for part in walk(frame.function.node)
+        if isinstance(part, ast.Assign)
+        and any(isinstance(to, ast.Name) and to.id == node.id for to in part.targets)
+    ]
+    return stored[0] if len(stored) == 1 else None
+
+
+def _number(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> float | None:
+    held = machine.evaluate(node, frame)
+    value = held.value if isinstance(held, Const) else None
+    return value if isinstance(value, (int, float)) else None

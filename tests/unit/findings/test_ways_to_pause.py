@@ -1,0 +1,158 @@
+"""
+CC201: ways in which a callback takes two seconds, on the only thread and on one of its own.
+"""
+
+from __future__ import annotations
+
+import json
+from io import StringIO
+from pathlib import Path
+from textwrap import indent
+
+import pytest
+
+from ros2cc_extract.cli.main import main
+
+NODE = """\
+import asyncio, concurrent.futures, functools, multiprocessing, queue, select, socket
+import subprocess, threading, time, urllib.request
+from time import monotonic, sleep
+import rclpy
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import Float32
+
+
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        {made}
+        own = MutuallyExclusiveCallbackGroup()
+        self.create_subscription(Float32, 'go', self.on_go, 10, callback_group=own)
+        self.create_timer(0.05, self.control)
+
+    def control(self):
+        pass
+
+    def on_go(self, msg):
+{body}
+
+
+rclpy.init()
+executor = {executor}
+executor.add_node(Arm())
+executor.spin()
+"""
+WAYS = {
+    'sleep': ('pass', 'time.sleep(2)'),
+    'alias': ('pass', 'sleep(2)'),
+    'arith': ('pass', 'time.sleep(1.0 / 10 * 20)'),
+    'loop': ('pass', 'for _ in range(20):\n    time.sleep(0.1)'),
+    'loop_list': ('pass', 'for x in [1, 2, 3, 4]:\n    time.sleep(0.5)'),
+    'loop_attr': ('self.points = [1, 2, 3, 4]', 'for x in self.points:\n    time.sleep(0.5)'),
+    'loop_dict': (
+        'self.points = {"a": 1, "b": 2, "c": 3}',
+        'for k, x in self.points.items():\n    time.sleep(0.5)',
+    ),
+    'loop_param_n': (
+        'self.n = self.declare_parameter("n", 20).value',
+        'for _ in range(self.n):\n    time.sleep(0.1)',
+    ),
+    'loop_msg': ('pass', 'for _ in range(int(msg.data)):\n    time.sleep(0.5)'),
+    'comp': ('pass', 'x = [time.sleep(0.1) for _ in range(20)]'),
+    'map': ('pass', 'list(map(time.sleep, [0.5, 0.5, 1.0]))'),
+    'while_count': ('pass', 'i = 0\nwhile i < 20:\n    time.sleep(0.1)\n    i += 1'),
+    'while_deadline': (
+        'pass',
+        'end = time.time() + 2.0\nwhile time.time() < end:\n    time.sleep(0.1)',
+    ),
+    'while_mono': (
+        'pass',
+        'start = monotonic()\nwhile monotonic() - start < 2.0:\n    time.sleep(0.01)',
+    ),
+    'busy': ('pass', 'end = time.time() + 2.0\nwhile time.time() < end:\n    pass'),
+    'partial': ('self.f = functools.partial(time.sleep, 2)', 'self.f()'),
+    'lambda_': ('self.f = lambda: time.sleep(2)', 'self.f()'),
+    'dict_delay': ('self.cfg = {"settle": 2.0}', 'time.sleep(self.cfg["settle"])'),
+    'event': ('pass', 'threading.Event().wait(2)'),
+    'event_attr': ('self.e = threading.Event()', 'self.e.wait(timeout=2.0)'),
+    'cond': ('self.c = threading.Condition()', 'with self.c:\n    self.c.wait(2.0)'),
+    'cond_for': (
+        'self.c = threading.Condition()',
+        'with self.c:\n    self.c.wait_for(lambda: False, timeout=2.0)',
+    ),
+    'queue': (
+        'self.q = queue.Queue()',
+        'try:\n    self.q.get(timeout=2.0)\nexcept queue.Empty:\n    pass',
+    ),
+    'join': ('pass', 't = threading.Thread(target=time.sleep, args=(2,))\nt.start()\nt.join()'),
+    'join_to': (
+        'pass',
+        't = threading.Thread(target=time.sleep, args=(5,))\nt.start()\nt.join(timeout=2)',
+    ),
+    'pool': (
+        'pass',
+        'with concurrent.futures.ThreadPoolExecutor() as p:\n    p.submit(time.sleep, 2)',
+    ),
+    'pool_result': (
+        'self.p = concurrent.futures.ThreadPoolExecutor()',
+        'self.p.submit(time.sleep, 2).result()',
+    ),
+    'pool_result_to': (
+        'self.p = concurrent.futures.ThreadPoolExecutor()',
+        'f = self.p.submit(time.sleep, 9)\ntry:\n'
+        '    f.result(timeout=2)\nexcept Exception:\n    pass',
+    ),
+    'sub_to': ('pass', 'subprocess.run(["scan"], timeout=2)'),
+    'select': ('pass', 'select.select([0], [], [], 2.0)'),
+    'sock': ('self.s = socket.socket()\nself.s.settimeout(2.0)', 'self.s.recv(10)'),
+    'sock_conn': ('pass', 'socket.create_connection(("robot", 80), timeout=2)'),
+    'url': ('pass', 'urllib.request.urlopen("http://robot", timeout=2)'),
+    'lock_to': ('self.l = threading.Lock()\nself.l.acquire()', 'self.l.acquire(timeout=2.0)'),
+    'finally_': ('pass', 'try:\n    pass\nfinally:\n    time.sleep(2)'),
+    'cond_branch': ('pass', 'if msg.data > 0:\n    time.sleep(2)'),
+    'two': ('pass', 'time.sleep(0.6)\nself.control()\ntime.sleep(0.6)'),
+    'barrier': ('self.b = threading.Barrier(2)', 'self.b.wait(2.0)'),
+    'sem': ('self.b = threading.Semaphore(0)', 'self.b.acquire(timeout=2.0)'),
+    'usleep': ('pass', 'time.sleep(2000 * 1e-3)'),
+    'proc_wait': (
+        'pass',
+        'p = subprocess.Popen(["scan"])\ntry:\n'
+        '    p.wait(timeout=2)\nexcept Exception:\n    p.kill()',
+    ),
+    'mp': (
+        'pass',
+        'import multiprocessing\np = multiprocessing.Process(target=time.sleep, args=(2,))\n'
+        'p.start()\np.join()',
+    ),
+}
+"""What is made, and what the callback does."""
+ONE, MANY = 'SingleThreadedExecutor()', 'MultiThreadedExecutor(num_threads=3)'
+
+
+def told(folder: Path, made: str, body: str, executor: str) -> list[tuple[str, str]]:
+    path, out = folder / 'arm.py', StringIO()
+    made, body = indent(made, ' ' * 8).strip(), indent(body, ' ' * 8)
+    path.write_text(NODE.format(made=made, body=body, executor=executor))
+    main(['check', '--no-cache', '--output-format', 'json', str(path)], out, StringIO())
+    found = json.loads(out.getvalue())['findings']
+    return [(f['code'], f['severity']) for f in found if f['code'].startswith('CC2')]
+
+
+@pytest.mark.parametrize('way', WAYS)
+def test_what_holds_up_a_fast_timer_is_told(tmp_path: Path, way: str) -> None:
+    assert told(tmp_path, *WAYS[way], ONE) == [('CC201', 'warning')]
+
+
+@pytest.mark.parametrize('way', WAYS)
+def test_with_a_thread_and_a_group_of_its_own_it_is_not(tmp_path: Path, way: str) -> None:
+    assert told(tmp_path, *WAYS[way], MANY) == []
+
+
+@pytest.mark.parametrize('seconds', ['msg.data', 'max(1.0, msg.data)'])
+def test_a_sleep_of_unknown_length_leaves_it_open(tmp_path: Path, seconds: str) -> None:
+    assert told(tmp_path, 'pass', f'time.sleep({seconds})', ONE) == []
+    out = StringIO()
+    main(['check', '--no-cache', str(tmp_path / 'arm.py')], out, StringIO())
+    assert '? no starvation: how long Arm.on_go sleeps at ' in out.getvalue()
