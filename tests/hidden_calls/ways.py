@@ -109,6 +109,7 @@ def text_of(way: Way, kind: str) -> str:
 
 
 _OWN_ITER = '\ndef __iter__(self):\n    return self\n'
+_STEPS = 'self.steps = '
 _FOR = 'for item in {}:\n    pass'
 
 FOUND = [
@@ -150,6 +151,17 @@ FOUND = [
     Way('list of an iterator', 'items = list(self.gate)', ('__next__(self)', '1'), _OWN_ITER),
     Way('enumerate', _FOR.format('enumerate(self.gate)'), ('__next__(self)', '1'), _OWN_ITER),
     Way('zip', _FOR.format('zip([1], self.gate)'), ('__next__(self)', '1'), _OWN_ITER),
+    # Generators that the constructor has made
+    Way('generator expression', 'next(self.steps)', init=f'{_STEPS}(self.wait() for _ in "ab")'),
+    Way('filter of one', 'next(self.steps)', init=f'{_STEPS}(_ for _ in "ab" if self.wait())'),
+    Way('map', 'self.steps.__next__()', init=f"{_STEPS}map(self.wait, 'ab')"),
+    Way('filter', 'for item in self.steps:\n    break', init=f"{_STEPS}filter(self.wait, 'ab')"),
+    Way(
+        'generator that is primed',
+        'self.steps.send(1)',
+        more='def script(self):\n    got = yield\n    self.wait()\n    yield got\n',
+        init=f'{_STEPS}self.script()\nnext(self.steps)',
+    ),
     # Functions that call what they are given
     Way('sorted', 'sorted(self.items, key=self.wait)'),
     Way('sort', 'self.items.sort(key=self.wait)'),

@@ -398,7 +398,7 @@ class Calls(Machine):
         if not isinstance(turn, Bound) or not isinstance(turn.function, Function):
             return None
         given = self.call(turn, Call(place))
-        generators.run(self, given, place)
+        generators.run(self, given, place, turns=True)
         is_whole = isinstance(given, Sequence) and not given.others
         return given.items if is_whole and isinstance(given, Sequence) and given.items else None
 

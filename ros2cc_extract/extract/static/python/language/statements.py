@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.python.language.control_flow import (
     run_match,
     run_while,
 )
+from ros2cc_extract.extract.static.python.language.kept_generators import kept
 from ros2cc_extract.extract.static.python.language.try_blocks import run_try
 from ros2cc_extract.extract.static.python.language.with_blocks import run_with
 from ros2cc_extract.extract.static.python.machine import path_facts
@@ -179,7 +180,9 @@ def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
 def _assign_to(machine: Statements, node: ast.Assign, frame: Frame) -> int:
     _note_literal(machine, node.value, node.targets, frame)
     behind = machine.last_wait()
-    value = open_tests.evaluate_copied(machine, node.value, node.targets, frame)
+    value = kept(machine, node.value, frame) or open_tests.evaluate_copied(
+        machine, node.value, node.targets, frame
+    )
     with machine.in_one_piece(node, frame), stored_after(machine, behind, node.value, frame):
         for target in node.targets:
             machine.assign(target, value, frame)
@@ -198,7 +201,9 @@ def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) ->
     if node.value is not None:
         _note_literal(machine, node.value, [node.target], frame)
         behind = machine.last_wait()
-        value = open_tests.evaluate_copied(machine, node.value, [node.target], frame)
+        value = kept(machine, node.value, frame) or open_tests.evaluate_copied(
+            machine, node.value, [node.target], frame
+        )
         with stored_after(machine, behind, node.value, frame):
             machine.assign(node.target, value, frame)
         machine.world.reading.flowing = frozenset()
