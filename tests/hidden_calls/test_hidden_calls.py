@@ -82,3 +82,13 @@ def test_the_wait_is_found(name: str, kind: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize('way', OPEN, ids=lambda way: way.name)
 def test_the_wait_is_told(way: Way, tmp_path: Path) -> None:
     assert told(way, KIND, tmp_path) == [('note', 'CC120', line_of(way, KIND))]
+
+
+_USED_ELSEWHERE = '\nthreading.Thread(target=self.wait, daemon=True).start()'
+
+
+@pytest.mark.parametrize('name', ['eval', 'exec', 'chain', 'heap', 'partialmethod'])
+def test_another_caller_hides_nothing(name: str, tmp_path: Path) -> None:
+    way = WAYS[name]._replace(init=WAYS[name].init + _USED_ELSEWHERE)
+    errors = [each for each in told(way, KIND, tmp_path) if each[0] == 'error']
+    assert [line for _, _, line in errors] == [line_of(way, KIND)]

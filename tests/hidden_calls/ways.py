@@ -31,7 +31,8 @@ class Way(NamedTuple):
 
 
 PROGRAM = """
-import contextlib, copy, enum, functools, heapq, itertools, math, queue, threading, time, types
+import collections, contextlib, copy, enum, functools, heapq, itertools, math
+import queue, threading, time, types
 import rclpy
 from rclpy.node import Node
 from std_msgs.msg import String
@@ -109,6 +110,9 @@ def text_of(way: Way, kind: str) -> str:
 
 
 _OWN_ITER = '\ndef __iter__(self):\n    return self\n'
+_CHAIN = 'self.known = collections.ChainMap'
+_HEAP = 'self.rows = []\nheapq.heappush(self.rows, (1, self.wait))'
+_OBJECTS = 'self.rows = []\nheapq.heappush(self.rows, Gate(self))'
 _STEPS = 'self.steps = '
 _FOR = 'for item in {}:\n    pass'
 
@@ -172,6 +176,18 @@ FOUND = [
     Way('takewhile', 'list(itertools.takewhile(self.wait, self.items))'),
     Way('starmap', 'list(itertools.starmap(self.wait, [(1,)]))'),
     Way('nlargest', 'heapq.nlargest(1, self.items, key=self.wait)'),
+    # Texts that are run
+    Way('eval', "eval('self.wait()')"),
+    Way('exec', "exec('for i in range(2):\\n    node.wait()', {'node': self})"),
+    Way('eval of compile', "eval(compile('self.wait', 'text', 'eval'))()"),
+    Way('text of a name', 'exec(TEXT)', before="\nTEXT = 'self.wait()'\n"),
+    # Collections of functions
+    Way('chain', "self.known['go']()", init=f"{_CHAIN}({{}}, {{'go': self.wait}})"),
+    Way('get of a chain', "self.known.get('go')()", init=f"{_CHAIN}({{'go': self.wait}})"),
+    Way('heap', 'heapq.heappop(self.rows)[1]()', init='self.rows = [(1, self.wait)]'),
+    Way('heap that is filled', 'heapq.heappop(self.rows)[1]()', init=_HEAP),
+    Way('heap of objects', 'heapq.heappop(self.rows).go()', ('go(self)', '1'), init=_OBJECTS),
+    Way('partialmethod', 'self.later()', more='later = functools.partialmethod(wait, 1)'),
     # Attributes
     Way('property()', 'self.later', more='later = property(wait)'),
     Way('property() of a lambda', 'self.later', more='later = property(lambda self: self.wait())'),
@@ -210,7 +226,6 @@ OPEN = [
     Way('order', 'items = sorted([self.gate, self.gate])', ('__lt__(self, other)', 'True')),
     Way('same as one of', 'found = self.gate in [1, 2]', ('__eq__(self, other)', 'True')),
     Way('end', 'self.gate = None', ('__del__(self)', 'None')),
-    Way('eval', "eval('self.wait()')"),
 ]
 """It says that nobody is known to call what waits."""
 

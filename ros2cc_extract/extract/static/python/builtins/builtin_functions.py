@@ -7,7 +7,11 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
-from ros2cc_extract.extract.static.python.builtins import builtin_methods, given_functions
+from ros2cc_extract.extract.static.python.builtins import (
+    builtin_methods,
+    given_functions,
+    heaps_and_chains,
+)
 from ros2cc_extract.extract.static.python.builtins.code_behind import asked_as
 from ros2cc_extract.extract.static.python.builtins.given_functions import called_at_once
 from ros2cc_extract.extract.static.python.builtins.map_and_zip import filtered, mapped, zipped
@@ -486,6 +490,7 @@ TABLE = Library(
     functions={
         **_FUNCTIONS,
         **given_functions.FUNCTIONS,
+        **heaps_and_chains.FUNCTIONS,
         'importlib.import_module': _import_module,
     },
     constants={

@@ -23,6 +23,7 @@ from ros2cc_extract.extract.static.python.values.containers import (
     Sequence,
 )
 from ros2cc_extract.extract.static.python.values.enumerations import Member
+from ros2cc_extract.extract.static.python.values.partial_methods import PartialMethod
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -200,6 +201,9 @@ class Attributes(Machine):
     def _bind(self, member: Value, receiver: Value, place: Place) -> Value:
         if isinstance(member, Instance) and member.cls is not receiver:
             return self._described(member, receiver, place)
+        if isinstance(member, PartialMethod) and isinstance(receiver, Instance):
+            bound = self._bind(member.function, receiver, place)
+            return Partial(bound, member.args, member.keywords, member.more)
         if not isinstance(member, Function):
             return member
         if member.binding == 'static':
