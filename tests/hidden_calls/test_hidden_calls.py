@@ -87,8 +87,32 @@ def test_the_wait_is_told(way: Way, tmp_path: Path) -> None:
 _USED_ELSEWHERE = '\nthreading.Thread(target=self.wait, daemon=True).start()'
 
 
-@pytest.mark.parametrize('name', ['eval', 'exec', 'chain', 'heap', 'partialmethod'])
+@pytest.mark.parametrize(
+    'name', ['eval', 'exec', 'chain', 'heap', 'partialmethod', 'item of vars']
+)
 def test_another_caller_hides_nothing(name: str, tmp_path: Path) -> None:
     way = WAYS[name]._replace(init=WAYS[name].init + _USED_ELSEWHERE)
     errors = [each for each in told(way, KIND, tmp_path) if each[0] == 'error']
     assert [line for _, _, line in errors] == [line_of(way, KIND)]
+
+
+_HIDDEN = 'def later(self):\n    return 1\n'
+_COMPUTED = "time.strftime('later')"
+
+
+@pytest.mark.parametrize(
+    ('use', 'init', 'is_told'),
+    [
+        ('self.later()', f'setattr(self, {_COMPUTED}, self.wait)', True),
+        ('self.later()', f"setattr(self, 'la' + {_COMPUTED}[2:], self.wait)", True),
+        ('self.later()', f"setattr(self, 'on_' + {_COMPUTED}, self.wait)", False),
+        ('self.later()', f'setattr(self, {_COMPUTED}, self.later)', False),
+        (f'getattr(self, {_COMPUTED})()', f'self.other = {_COMPUTED}', True),
+    ],
+)
+def test_what_a_computed_name_may_mean_is_told(
+    use: str, init: str, *, is_told: bool, tmp_path: Path
+) -> None:
+    way = Way('computed', use, more=_HIDDEN, init=init + _USED_ELSEWHERE)
+    found = {(severity, code) for severity, code, _ in told(way, KIND, tmp_path)}
+    assert found == ({('note', 'CC120')} if is_told else set())

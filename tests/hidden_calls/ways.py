@@ -113,6 +113,8 @@ _OWN_ITER = '\ndef __iter__(self):\n    return self\n'
 _CHAIN = 'self.known = collections.ChainMap'
 _HEAP = 'self.rows = []\nheapq.heappush(self.rows, (1, self.wait))'
 _OBJECTS = 'self.rows = []\nheapq.heappush(self.rows, Gate(self))'
+_LATER = "time.strftime('later')"
+_UPDATED = f'self.__dict__.update({{{_LATER}: self.wait}})'
 _STEPS = 'self.steps = '
 _FOR = 'for item in {}:\n    pass'
 
@@ -188,6 +190,13 @@ FOUND = [
     Way('heap that is filled', 'heapq.heappop(self.rows)[1]()', init=_HEAP),
     Way('heap of objects', 'heapq.heappop(self.rows).go()', ('go(self)', '1'), init=_OBJECTS),
     Way('partialmethod', 'self.later()', more='later = functools.partialmethod(wait, 1)'),
+    # Names that are computed
+    Way('setattr of a computed name', 'self.later()', init=f'setattr(self, {_LATER}, self.wait)'),
+    Way('setattr of a class', 'self.later()', init=f'setattr(Planner, {_LATER}, Planner.wait)'),
+    Way('item of __dict__', 'self.later()', init=f'self.__dict__[{_LATER}] = self.wait'),
+    Way('item of vars', 'self.later()', init=f'vars(self)[{_LATER}] = self.wait'),
+    Way('update of __dict__', 'self.later()', init=_UPDATED),
+    Way('__setattr__', 'self.later()', init=f'object.__setattr__(self, {_LATER}, self.wait)'),
     # Attributes
     Way('property()', 'self.later', more='later = property(wait)'),
     Way('property() of a lambda', 'self.later', more='later = property(lambda self: self.wait())'),

@@ -7,6 +7,7 @@ import ast
 from ros2cc_extract.extract.static.python.branching import open_tests
 from ros2cc_extract.extract.static.python.builtins import (
     builtin_methods,
+    computed_names,
     generators,
     given_functions,
 )
@@ -146,7 +147,12 @@ class Attributes(Machine):
             return self.attribute_as_of_now(value, name, found, place)
         if not isinstance(found, (Bound, Native)):
             open_tests.note_attribute(self, value, name, found)
-        return found or self._handed_on(value, name, place)
+        found = found or self._handed_on(value, name, place)
+        if found is None or isinstance(found, Mystery):
+            computed = computed_names.held(self, value, name)
+            rest = [found] if found is not None else []
+            return choice([*computed, *rest]) if computed else found
+        return found
 
     def _handed_on(self, owner: Instance, name: str, place: Place) -> Value | None:
         """What ``__getattr__`` of a scanned class gives for an attribute it lacks."""
