@@ -73,13 +73,17 @@ def note_hidden(machine: Machine, function: Value, name: str, call: Call) -> Non
         machine.note_unknown_call(LookedUp(why, 'setattr(…)', others), Call(place))
 
 
-def any_of_owner(machine: Machine, owner: Value, place: Place) -> Mystery:
-    """``getattr(owner, name)``: any method of it, and whatever was stored in it."""
+def any_of_owner(owner: Value, name: Value, place: Place) -> Mystery:
+    """``getattr(owner, name)``: any method so named, and whatever was stored under such a name."""
+    ends = ends_of(name.node) if isinstance(name, Mystery) else None
+    first, last = ends or ('', '')
     found: list[Value] = []
     for option in options_of(owner):
         if isinstance(option, Instance):
             known = [option, *(cls for cls in option.mro if isinstance(cls, Class))]
-            values = (value for each in known for value in each.slots.values())
-            found += (value for value in values if isinstance(value, _CODE))
+            for key, value in (item for each in known for item in each.slots.items()):
+                is_named = key.startswith(first) and key.endswith(last)
+                if (is_named or key.startswith(_COMPUTED)) and isinstance(value, Value):
+                    found += (each for each in options_of(value) if isinstance(each, _CODE))
     why = Unknown('getattr with a computed name', place)
     return LookedUp(why, 'getattr(…)', found)

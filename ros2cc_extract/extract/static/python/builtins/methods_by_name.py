@@ -28,8 +28,8 @@ def get_attribute(machine: Machine, receiver: Value, call: Call) -> Value:
     """``getattr(owner, name)``."""
     if len(call.args) < 2 or not isinstance(call.args[1], Const):
         like = _methods_named_like(machine, call) if len(call.args) > 1 else None
-        owner = call.args[0] if call.args else NONE
-        return like or any_of_owner(machine, owner, call.place)
+        owner, asked = (*call.args, NONE, NONE)[:2]
+        return like or any_of_owner(owner, asked, call.place)
     name = str(call.args[1].value)
 
     def of(owner: Value) -> Value:
