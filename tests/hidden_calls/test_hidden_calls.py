@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import sys
 from contextlib import suppress
@@ -33,6 +34,8 @@ class _Node:
 
 @pytest.mark.parametrize('way', list(WAYS.values()), ids=list(WAYS))
 def test_python_comes_to_the_wait(way: Way, monkeypatch: pytest.MonkeyPatch) -> None:
+    if 'TaskGroup' in way.more and not hasattr(asyncio, 'TaskGroup'):
+        pytest.skip('as of Python 3.11')
     reached: list[str] = []
 
     def wait(*given: object) -> None:
@@ -49,7 +52,7 @@ def test_python_comes_to_the_wait(way: Way, monkeypatch: pytest.MonkeyPatch) -> 
         vars(stub).update(members)
         monkeypatch.setitem(sys.modules, name, stub)
     monkeypatch.setattr(sys, 'unraisablehook', lambda error: None)
-    with suppress(ReachedError):
+    with suppress(BaseException):  # a group of tasks has one of its own around it
         exec(compile(text_of(way, KIND), 'way.py', 'exec'), {'__name__': '__main__'})
     assert reached
 

@@ -31,8 +31,8 @@ class Way(NamedTuple):
 
 
 PROGRAM = """
-import collections, contextlib, copy, enum, functools, heapq, itertools, math
-import queue, threading, time, types
+import asyncio, collections, contextlib, copy, enum, functools, heapq, itertools, math
+import queue, threading, time, types, typing
 import rclpy
 from rclpy.node import Node
 from std_msgs.msg import String
@@ -115,6 +115,24 @@ _HEAP = 'self.rows = []\nheapq.heappush(self.rows, (1, self.wait))'
 _OBJECTS = 'self.rows = []\nheapq.heappush(self.rows, Gate(self))'
 _LATER = "time.strftime('later')"
 _UPDATED = f'self.__dict__.update({{{_LATER}: self.wait}})'
+_MISSING = """
+class Gates(dict):
+    def __init__(self, node):
+        self.node = node
+
+    def __missing__(self, key):
+        self.node.wait()
+        return 1
+"""
+_RUN = 'asyncio.run(self.work_off())'
+_ASYNC = """
+async def work_off(self):
+    {}
+
+async def items_of(self):
+    self.wait()
+    yield 1
+"""
 _STEPS = 'self.steps = '
 _FOR = 'for item in {}:\n    pass'
 
@@ -190,6 +208,41 @@ FOUND = [
     Way('heap that is filled', 'heapq.heappop(self.rows)[1]()', init=_HEAP),
     Way('heap of objects', 'heapq.heappop(self.rows).go()', ('go(self)', '1'), init=_OBJECTS),
     Way('partialmethod', 'self.later()', more='later = functools.partialmethod(wait, 1)'),
+    # Classes that stand for collections
+    Way(
+        'method of a NamedTuple',
+        'self.step.go()',
+        before='\nclass Step(typing.NamedTuple):\n    node: object\n\n    def go(self):\n'
+        '        self.node.wait()\n',
+        init='self.step = Step(self)',
+    ),
+    Way('__missing__', "item = self.gates['a']", before=_MISSING, init='self.gates = Gates(self)'),
+    # Coroutines
+    Way('async for', _RUN, more=_ASYNC.format('async for item in self.items_of():\n        pass')),
+    Way('anext', _RUN, more=_ASYNC.format('await anext(self.items_of())')),
+    Way('__anext__', _RUN, more=_ASYNC.format('await self.items_of().__anext__()')),
+    Way('asend', _RUN, more=_ASYNC.format('await self.items_of().asend(None)')),
+    Way(
+        'async comprehension',
+        _RUN,
+        more=_ASYNC.format('self.rows = [each async for each in self.items_of()]'),
+    ),
+    Way(
+        'async for of a class',
+        _RUN,
+        more=_ASYNC.format('async for item in Items(self):\n        pass'),
+        before='\nclass Items:\n    def __init__(self, node):\n        self.node = node\n\n'
+        '    def __aiter__(self):\n        return self\n\n    async def __anext__(self):\n'
+        '        self.node.wait()\n        raise StopAsyncIteration\n',
+    ),
+    Way(
+        'group of tasks',
+        _RUN,
+        more=_ASYNC.format(
+            'async with asyncio.TaskGroup() as group:\n        group.create_task(self.work())'
+        )
+        + '\nasync def work(self):\n    self.wait()\n',
+    ),
     # Names that are computed
     Way('setattr of a computed name', 'self.later()', init=f'setattr(self, {_LATER}, self.wait)'),
     Way('setattr of a class', 'self.later()', init=f'setattr(Planner, {_LATER}, Planner.wait)'),

@@ -8,12 +8,13 @@ from typing import Any
 
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 
+_DEFINED = (ast.FunctionDef, ast.AsyncFunctionDef)
 _INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 
 
 def yields(node: ast.AST) -> bool:
     """Whether a ``yield`` stands in a function or a statement, and in no function inside."""
-    waiting: list[ast.AST] = [*node.body] if isinstance(node, ast.FunctionDef) else [node]
+    waiting: list[ast.AST] = [*node.body] if isinstance(node, _DEFINED) else [node]
     while waiting:
         part = waiting.pop()
         if isinstance(part, (ast.Yield, ast.YieldFrom)):

@@ -9,6 +9,7 @@ from typing import Any
 
 from ros2cc_extract.extract.static.python.builtins import (
     builtin_methods,
+    generators,
     given_functions,
     heaps_and_chains,
 )
@@ -411,6 +412,7 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.bool': _scalar(bool),
     'builtins.ord': _letter(ord),
     'builtins.chr': _letter(chr),
+    'builtins.anext': generators.anext_of,
     'builtins.any': _of_all(stops_on=True),
     'builtins.all': _of_all(stops_on=False),
     'builtins.max': _extreme('max'),

@@ -15,12 +15,14 @@ from typing import Any
 
 from ros2cc_extract.extract.static.program.generator_texts import first_yield, yields
 from ros2cc_extract.extract.static.program.text_queries import noted_on
+from ros2cc_extract.extract.static.python.machine.library_table import AWAITED
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.containers import Generator, Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
     Function,
+    Instance,
     Library,
     Native,
     Value,
@@ -30,12 +32,13 @@ from ros2cc_extract.extract.static.python.values.values import (
 from ros2cc_extract.source_locations import Place, Unknown
 
 _TAKING = frozenset({'__next__', 'send', 'throw'})
+_AWAITED = frozenset({'__anext__', 'asend', 'athrow'})
 _KEEPING = frozenset({'builtins.iter', 'append', 'appendleft', 'add', 'insert', 'setdefault'})
 
 
 def is_generator(function: Function) -> bool:
     """Whether a call of ``function`` runs nothing of it yet."""
-    is_plain = isinstance(function.node, ast.FunctionDef)
+    is_plain = isinstance(function.node, (ast.FunctionDef, ast.AsyncFunctionDef))
     return is_plain and noted_on(function.node, 'is_generator', yields)
 
 
@@ -108,7 +111,25 @@ def method(name: str, value: Generator) -> Value | None:
     """A method of a generator."""
     if name in _TAKING:
         return Native(name, _next, value)
-    return Native(name, lambda *_: NONE, value) if name == 'close' else None
+    if name in _AWAITED:
+        return Native(name, lambda machine, receiver, call: step_of(receiver), value)
+    return Native(name, lambda *_: NONE, value) if name in ('close', 'aclose') else None
+
+
+def step_of(value: Value) -> Value:
+    """What gives the next item of an asynchronous generator once it is awaited."""
+    taken = Instance(Library('builtins.async_generator_asend'), Place(''))
+    taken.slots[AWAITED] = Native('__anext__', _next, value)
+    return taken
+
+
+def anext_of(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``anext(items)``."""
+    given = call.args[0] if call.args else NONE
+    if isinstance(given, Generator):
+        return step_of(given)
+    method = machine.special_method(given, '__anext__', call.place)
+    return machine.call(method, Call(call.place)) if method is not None else given
 
 
 def _next(machine: Machine, receiver: Value, call: Call) -> Value:

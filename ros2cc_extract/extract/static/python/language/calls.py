@@ -89,10 +89,10 @@ class Calls(Machine):
 
     def call_function(self, function: Function, call: Call) -> Value:
         """Run a scanned function; that of a coroutine or generator only makes it."""
-        if function.is_coroutine:
-            return Coroutine(function, call)
         if generators.is_generator(function):
             return Generator(function, call)
+        if function.is_coroutine:
+            return Coroutine(function, call)
         run = partial(self.run_shortly, function)
         if memoization.is_kept(function):
             return memoization.recall(self, function, call, run)

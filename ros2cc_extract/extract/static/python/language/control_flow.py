@@ -146,8 +146,9 @@ def run_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int
     begun = machine.begin_rounds(counting) if counting is not None else None
     values = open_tests.evaluate_iterated(machine, node, frame)
     machine.note_iteration(node.iter, frame)
-    values = iterators.iterated(machine, values, place)
-    step = iterators.next_of(machine, values, place)
+    is_async = isinstance(node, ast.AsyncFor)
+    values = iterators.iterated(machine, values, place, is_async=is_async)
+    step = iterators.next_of(machine, values, place, is_async=is_async)
     rounds = values if step is None else machine.mystery('as many rounds as it gives items', place)
     is_driven = (machine.world.one_by_one or machine.world.turning) and yields_each_round(
         node.body
