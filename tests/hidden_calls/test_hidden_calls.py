@@ -119,3 +119,11 @@ def test_what_a_computed_name_may_mean_is_told(
     way = Way('computed', use, more=_HIDDEN, init=init + _USED_ELSEWHERE)
     found = {(severity, code) for severity, code, _ in told(way, KIND, tmp_path)}
     assert found == ({('note', 'CC120')} if is_told else set())
+
+
+@pytest.mark.parametrize('name', ['singledispatch', 'singledispatch of nothing else'])
+def test_another_function_for_that_class_is_called(name: str, tmp_path: Path) -> None:
+    way = WAYS[name]
+    other = "handle('a', self)" if way.use == 'handle(1, self)' else 'handle(1, self)'
+    found = told(way._replace(use=other), KIND, tmp_path)
+    assert not [each for each in found if each[0] == 'error']

@@ -124,6 +124,25 @@ class Gates(dict):
         self.node.wait()
         return 1
 """
+_DISPATCHED = """
+class Step: ...
+class Leg(Step): ...
+
+@functools.singledispatch
+def handle(item, node):
+    {other}
+
+@handle.register({kind})
+def _(item, node):
+    {one}
+"""
+_BOX = """
+class Box:
+    def __init__(self, node):
+        self.node = node
+
+    def {}
+"""
 _RUN = 'asyncio.run(self.work_off())'
 _ASYNC = """
 async def work_off(self):
@@ -196,6 +215,29 @@ FOUND = [
     Way('takewhile', 'list(itertools.takewhile(self.wait, self.items))'),
     Way('starmap', 'list(itertools.starmap(self.wait, [(1,)]))'),
     Way('nlargest', 'heapq.nlargest(1, self.items, key=self.wait)'),
+    Way(
+        '__getattr__',
+        'self.box.go()',
+        before=_BOX.format('__getattr__(self, name):\n        return self.node.wait'),
+        init='self.box = Box(self)',
+    ),
+    Way(
+        '__getattribute__',
+        'self.box.go()',
+        before=_BOX.format(
+            "__getattribute__(self, name):\n        return super().__getattribute__('node').wait"
+        ),
+        init='self.box = Box(self)',
+    ),
+    Way(
+        '__getattribute__ that waits',
+        'self.box.node',
+        before=_BOX.format(
+            "__getattribute__(self, name):\n        object.__getattribute__(self, 'node').wait()\n"
+            '        return super().__getattribute__(name)'
+        ),
+        init='self.box = Box(self)',
+    ),
     # Texts that are run
     Way('eval', "eval('self.wait()')"),
     Way('exec', "exec('for i in range(2):\\n    node.wait()', {'node': self})"),
@@ -217,6 +259,28 @@ FOUND = [
         init='self.step = Step(self)',
     ),
     Way('__missing__', "item = self.gates['a']", before=_MISSING, init='self.gates = Gates(self)'),
+    # One of several functions
+    Way(
+        'singledispatch',
+        'handle(1, self)',
+        before=_DISPATCHED.format(other='pass', kind='int', one='node.wait()'),
+    ),
+    Way(
+        'singledispatch of a class',
+        'handle(Leg(), self)',
+        before=_DISPATCHED.format(other='pass', kind='Step', one='node.wait()'),
+    ),
+    Way(
+        'singledispatch of nothing else',
+        "handle('a', self)",
+        before=_DISPATCHED.format(other='node.wait()', kind='int', one='pass'),
+    ),
+    Way(
+        'singledispatchmethod',
+        'self.handle(1)',
+        more='@functools.singledispatchmethod\ndef handle(self, item):\n    pass\n\n'
+        '@handle.register\ndef _(self, item: int):\n    self.wait()\n',
+    ),
     # Coroutines
     Way('async for', _RUN, more=_ASYNC.format('async for item in self.items_of():\n        pass')),
     Way('anext', _RUN, more=_ASYNC.format('await anext(self.items_of())')),

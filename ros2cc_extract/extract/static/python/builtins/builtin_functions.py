@@ -9,6 +9,7 @@ from typing import Any
 
 from ros2cc_extract.extract.static.python.builtins import (
     builtin_methods,
+    dispatching,
     generators,
     given_functions,
     heaps_and_chains,
@@ -472,6 +473,7 @@ TABLE = Library(
         **_FUNCTIONS,
         **given_functions.FUNCTIONS,
         **heaps_and_chains.FUNCTIONS,
+        **dispatching.FUNCTIONS,
         'importlib.import_module': _import_module,
     },
     constants={

@@ -77,6 +77,15 @@ def set_attribute_of(machine: Machine, _receiver: Value, call: Call) -> Value:
     return set_attribute(machine, owner, Call(call.place, call.args[1:]))
 
 
+def attribute_of(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``object.__getattribute__(owner, name)``, or that of an object."""
+    given = call.args if receiver == NONE else [receiver, *call.args]
+    owner, name = (*given, NONE, NONE)[:2]
+    if isinstance(name, Const) and isinstance(name.value, str):
+        return machine.attribute(owner, name.value, call.place)
+    return machine.mystery('attribute with a computed name', call.place, '__getattribute__')
+
+
 def field_method(value: Fields, name: str) -> Value | None:
     """A method of ``owner.__dict__``, ``None`` when it is not followed."""
     handler = _FIELDS.get(name)

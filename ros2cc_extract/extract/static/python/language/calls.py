@@ -343,6 +343,7 @@ class Calls(Machine):
         naming = self.special_method(value, '__set_name__', cls.place)
         if naming is not None:
             self.call(naming, Call(cls.place, [cls, Const(name)]))
+        self.world.intercepts |= name == '__getattribute__'
         if self.special_method(value, '__set__', cls.place) is not None:
             self.world.described.add(name)
 

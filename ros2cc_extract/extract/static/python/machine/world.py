@@ -104,6 +104,7 @@ class World:
     :param handing_on: the same of the items that are taken now: they are handed on one by one.
     :param turning: the generator that runs gives its items to who runs the coroutine.
     :param computed_name: where an object has got functions under names that are not known.
+    :param intercepts: some class has an own ``__getattribute__``.
     :param first_yield: where the generator that runs stops, if nothing was taken from it yet.
     :param looking: the properties that are running, by owner and name.
     :param unset_globals: values of globals that known code only sets to ``None``, by file, name.
@@ -170,6 +171,7 @@ class World:
     one_by_one: bool = False
     handing_on: bool = False
     turning: bool = False
+    intercepts: bool = False
     computed_name: Place | None = None
     first_yield: ast.expr | None = None
     diagnostics: list[Diagnostic] = field(default_factory=list)
