@@ -7,6 +7,7 @@ one, so that its call may call that instead.
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.python.builtins.text_ends import ends_of
@@ -37,7 +38,7 @@ def keep(machine: Machine, owner: Value, name: Value, value: Value, place: Place
     if not found or not isinstance(owner, (Instance, Class)):
         return
     ends = ends_of(name.node) if isinstance(name, Mystery) else None
-    key = '\0'.join([_COMPUTED, *(ends or ('', ''))])
+    key = '\0'.join([_COMPUTED, *(ends or ('', '')), _text(name)])
     known = owner.slots.get(key)
     old = options_of(known) if isinstance(known, Value) else ()
     machine.store.write(owner, key, choice([*old, *found]))
@@ -58,9 +59,24 @@ def held(machine: Machine, owner: Value, name: str) -> list[Value]:
 def _fitting(owner: Heaped, name: str) -> Iterator[Value]:
     for key, value in owner.slots.items():
         if key.startswith(_COMPUTED) and isinstance(value, Value):
-            _, first, last = key.split('\0')
+            _, first, last, _ = key.split('\0', 3)
             if name.startswith(first) and name.endswith(last):
                 yield from options_of(value)
+
+
+def stored_so(owner: Value, name: Value) -> Value | None:
+    """What was stored in ``owner`` under a name that is computed in the same words."""
+    text = _text(name)
+    if not text or not isinstance(owner, Instance):
+        return None
+    ends = (key for key in owner.slots if key.startswith(_COMPUTED))
+    known = next((owner.slots[key] for key in ends if key.split('\0', 3)[-1] == text), None)
+    return known if isinstance(known, Value) else None
+
+
+def _text(name: Value) -> str:
+    node = name.node if isinstance(name, Mystery) else None
+    return ast.unparse(node) if node is not None else ''
 
 
 def note_hidden(machine: Machine, function: Value, name: str, call: Call) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.static.python.builtins.computed_names import any_of_owner
+from ros2cc_extract.extract.static.python.builtins.computed_names import any_of_owner, stored_so
 from ros2cc_extract.extract.static.python.builtins.text_ends import ends_of
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
@@ -27,9 +27,12 @@ _MANY = 40
 def get_attribute(machine: Machine, receiver: Value, call: Call) -> Value:
     """``getattr(owner, name)``."""
     if len(call.args) < 2 or not isinstance(call.args[1], Const):
-        like = _methods_named_like(machine, call) if len(call.args) > 1 else None
         owner, asked = (*call.args, NONE, NONE)[:2]
-        return like or any_of_owner(owner, asked, call.place)
+        stored = stored_so(owner, asked)
+        like = _methods_named_like(machine, call) if len(call.args) > 1 else None
+        if stored is not None and like is not None and machine.world.effects is not None:
+            return choice([*options_of(stored), *options_of(like)])  # of another word, perhaps
+        return stored or like or any_of_owner(owner, asked, call.place)
     name = str(call.args[1].value)
 
     def of(owner: Value) -> Value:
