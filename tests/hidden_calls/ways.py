@@ -31,7 +31,8 @@ class Way(NamedTuple):
 
 
 PROGRAM = """
-import contextlib, copy, enum, functools, heapq, itertools, math, queue, threading, time, types
+import asyncio, collections, contextlib, copy, enum, functools, heapq, itertools, math
+import queue, threading, time, types, typing
 import rclpy
 from rclpy.node import Node
 from std_msgs.msg import String
@@ -109,6 +110,49 @@ def text_of(way: Way, kind: str) -> str:
 
 
 _OWN_ITER = '\ndef __iter__(self):\n    return self\n'
+_CHAIN = 'self.known = collections.ChainMap'
+_HEAP = 'self.rows = []\nheapq.heappush(self.rows, (1, self.wait))'
+_OBJECTS = 'self.rows = []\nheapq.heappush(self.rows, Gate(self))'
+_LATER = "time.strftime('later')"
+_UPDATED = f'self.__dict__.update({{{_LATER}: self.wait}})'
+_MISSING = """
+class Gates(dict):
+    def __init__(self, node):
+        self.node = node
+
+    def __missing__(self, key):
+        self.node.wait()
+        return 1
+"""
+_DISPATCHED = """
+class Step: ...
+class Leg(Step): ...
+
+@functools.singledispatch
+def handle(item, node):
+    {other}
+
+@handle.register({kind})
+def _(item, node):
+    {one}
+"""
+_BOX = """
+class Box:
+    def __init__(self, node):
+        self.node = node
+
+    def {}
+"""
+_RUN = 'asyncio.run(self.work_off())'
+_ASYNC = """
+async def work_off(self):
+    {}
+
+async def items_of(self):
+    self.wait()
+    yield 1
+"""
+_STEPS = 'self.steps = '
 _FOR = 'for item in {}:\n    pass'
 
 FOUND = [
@@ -150,6 +194,17 @@ FOUND = [
     Way('list of an iterator', 'items = list(self.gate)', ('__next__(self)', '1'), _OWN_ITER),
     Way('enumerate', _FOR.format('enumerate(self.gate)'), ('__next__(self)', '1'), _OWN_ITER),
     Way('zip', _FOR.format('zip([1], self.gate)'), ('__next__(self)', '1'), _OWN_ITER),
+    # Generators that the constructor has made
+    Way('generator expression', 'next(self.steps)', init=f'{_STEPS}(self.wait() for _ in "ab")'),
+    Way('filter of one', 'next(self.steps)', init=f'{_STEPS}(_ for _ in "ab" if self.wait())'),
+    Way('map', 'self.steps.__next__()', init=f"{_STEPS}map(self.wait, 'ab')"),
+    Way('filter', 'for item in self.steps:\n    break', init=f"{_STEPS}filter(self.wait, 'ab')"),
+    Way(
+        'generator that is primed',
+        'self.steps.send(1)',
+        more='def script(self):\n    got = yield\n    self.wait()\n    yield got\n',
+        init=f'{_STEPS}self.script()\nnext(self.steps)',
+    ),
     # Functions that call what they are given
     Way('sorted', 'sorted(self.items, key=self.wait)'),
     Way('sort', 'self.items.sort(key=self.wait)'),
@@ -160,6 +215,105 @@ FOUND = [
     Way('takewhile', 'list(itertools.takewhile(self.wait, self.items))'),
     Way('starmap', 'list(itertools.starmap(self.wait, [(1,)]))'),
     Way('nlargest', 'heapq.nlargest(1, self.items, key=self.wait)'),
+    Way(
+        '__getattr__',
+        'self.box.go()',
+        before=_BOX.format('__getattr__(self, name):\n        return self.node.wait'),
+        init='self.box = Box(self)',
+    ),
+    Way(
+        '__getattribute__',
+        'self.box.go()',
+        before=_BOX.format(
+            "__getattribute__(self, name):\n        return super().__getattribute__('node').wait"
+        ),
+        init='self.box = Box(self)',
+    ),
+    Way(
+        '__getattribute__ that waits',
+        'self.box.node',
+        before=_BOX.format(
+            "__getattribute__(self, name):\n        object.__getattribute__(self, 'node').wait()\n"
+            '        return super().__getattribute__(name)'
+        ),
+        init='self.box = Box(self)',
+    ),
+    # Texts that are run
+    Way('eval', "eval('self.wait()')"),
+    Way('exec', "exec('for i in range(2):\\n    node.wait()', {'node': self})"),
+    Way('eval of compile', "eval(compile('self.wait', 'text', 'eval'))()"),
+    Way('text of a name', 'exec(TEXT)', before="\nTEXT = 'self.wait()'\n"),
+    # Collections of functions
+    Way('chain', "self.known['go']()", init=f"{_CHAIN}({{}}, {{'go': self.wait}})"),
+    Way('get of a chain', "self.known.get('go')()", init=f"{_CHAIN}({{'go': self.wait}})"),
+    Way('heap', 'heapq.heappop(self.rows)[1]()', init='self.rows = [(1, self.wait)]'),
+    Way('heap that is filled', 'heapq.heappop(self.rows)[1]()', init=_HEAP),
+    Way('heap of objects', 'heapq.heappop(self.rows).go()', ('go(self)', '1'), init=_OBJECTS),
+    Way('partialmethod', 'self.later()', more='later = functools.partialmethod(wait, 1)'),
+    # Classes that stand for collections
+    Way(
+        'method of a NamedTuple',
+        'self.step.go()',
+        before='\nclass Step(typing.NamedTuple):\n    node: object\n\n    def go(self):\n'
+        '        self.node.wait()\n',
+        init='self.step = Step(self)',
+    ),
+    Way('__missing__', "item = self.gates['a']", before=_MISSING, init='self.gates = Gates(self)'),
+    # One of several functions
+    Way(
+        'singledispatch',
+        'handle(1, self)',
+        before=_DISPATCHED.format(other='pass', kind='int', one='node.wait()'),
+    ),
+    Way(
+        'singledispatch of a class',
+        'handle(Leg(), self)',
+        before=_DISPATCHED.format(other='pass', kind='Step', one='node.wait()'),
+    ),
+    Way(
+        'singledispatch of nothing else',
+        "handle('a', self)",
+        before=_DISPATCHED.format(other='node.wait()', kind='int', one='pass'),
+    ),
+    Way(
+        'singledispatchmethod',
+        'self.handle(1)',
+        more='@functools.singledispatchmethod\ndef handle(self, item):\n    pass\n\n'
+        '@handle.register\ndef _(self, item: int):\n    self.wait()\n',
+    ),
+    # Coroutines
+    Way('async for', _RUN, more=_ASYNC.format('async for item in self.items_of():\n        pass')),
+    Way('anext', _RUN, more=_ASYNC.format('await anext(self.items_of())')),
+    Way('__anext__', _RUN, more=_ASYNC.format('await self.items_of().__anext__()')),
+    Way('asend', _RUN, more=_ASYNC.format('await self.items_of().asend(None)')),
+    Way(
+        'async comprehension',
+        _RUN,
+        more=_ASYNC.format('self.rows = [each async for each in self.items_of()]'),
+    ),
+    Way(
+        'async for of a class',
+        _RUN,
+        more=_ASYNC.format('async for item in Items(self):\n        pass'),
+        before='\nclass Items:\n    def __init__(self, node):\n        self.node = node\n\n'
+        '    def __aiter__(self):\n        return self\n\n    async def __anext__(self):\n'
+        '        self.node.wait()\n        raise StopAsyncIteration\n',
+    ),
+    Way(
+        'group of tasks',
+        _RUN,
+        more=_ASYNC.format(
+            'async with asyncio.TaskGroup() as group:\n        group.create_task(self.work())'
+        )
+        + '\nasync def work(self):\n    self.wait()\n',
+    ),
+    # Names that are computed
+    Way('setattr of a computed name', 'self.later()', init=f'setattr(self, {_LATER}, self.wait)'),
+    Way('setattr of a class', 'self.later()', init=f'setattr(Planner, {_LATER}, Planner.wait)'),
+    Way('item of __dict__', 'self.later()', init=f'self.__dict__[{_LATER}] = self.wait'),
+    Way('item of vars', 'self.later()', init=f'vars(self)[{_LATER}] = self.wait'),
+    Way('update of __dict__', 'self.later()', init=_UPDATED),
+    Way('__setattr__', 'self.later()', init=f'object.__setattr__(self, {_LATER}, self.wait)'),
     # Attributes
     Way('property()', 'self.later', more='later = property(wait)'),
     Way('property() of a lambda', 'self.later', more='later = property(lambda self: self.wait())'),
@@ -198,7 +352,6 @@ OPEN = [
     Way('order', 'items = sorted([self.gate, self.gate])', ('__lt__(self, other)', 'True')),
     Way('same as one of', 'found = self.gate in [1, 2]', ('__eq__(self, other)', 'True')),
     Way('end', 'self.gate = None', ('__del__(self)', 'None')),
-    Way('eval', "eval('self.wait()')"),
 ]
 """It says that nobody is known to call what waits."""
 

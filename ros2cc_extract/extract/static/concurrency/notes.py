@@ -28,6 +28,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops import (
     timed_loops,
 )
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import goes_round
+from ros2cc_extract.extract.static.program.generator_texts import yields_each_round
 from ros2cc_extract.extract.static.program.text_queries import is_recursion
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -111,12 +112,16 @@ class Notes(Effects):
 
     def begin_loop(self, node: ast.While, frame: Frame, implied: Implied | None) -> object:
         """A loop may do nothing but wait."""
-        if not goes_round(node):
+        if not goes_round(node) or self._is_driven(node):
             return None
         length = timed_loops.length_of(self, node, frame)
         before = polling_loops.mark(self, length)
         polling_loops.begin(self, node, frame, implied)
         return before
+
+    def _is_driven(self, node: ast.While) -> bool:
+        """Whether each round gives an item to code that takes one at a time: it goes on then."""
+        return self.world.one_by_one and yields_each_round(node.body)
 
     def begin_rounds(self, node: ast.While) -> object:
         """It may look for data of others in each round, and end by its number of rounds."""
@@ -124,7 +129,7 @@ class Notes(Effects):
 
     def end_loop(self, node: ast.While, frame: Frame, begun: object) -> None:
         """After one round it shows what the loop waits for."""
-        if not goes_round(node):
+        if not goes_round(node) or self._is_driven(node):
             return
         if begun is None:
             set_up_loops.note(self, node, frame)

@@ -73,6 +73,7 @@ _WAITS = frozenset(
     ]
 )
 _WAIT = 'wait_'
+_LATER = frozenset(['call_async', 'get_result_async'])
 _MAY_WAIT = frozenset(
     ['acquire', 'as_completed', 'run_until_complete', 'sleep_for', 'sleep_until']
 )
@@ -100,6 +101,16 @@ def _is_wait(call: ast.Call) -> bool:
         return isinstance(function.value, ast.Name) and function.value.id == 'subprocess'
     is_of_thread = function.attr == 'join' and not call.args  # that of a text takes something
     return function.attr in _WAITS or function.attr.startswith(_WAIT) or is_of_thread
+
+
+def holds_thread(node: ast.AST) -> bool:
+    """Whether ``node`` may wait and keeps its thread meanwhile, by the names of what it calls."""
+    return may_wait(node) or noted_on(node, 'holds_thread', _holds_thread)
+
+
+def _holds_thread(node: ast.AST) -> bool:
+    calls = (part for part in walk(node) if part.__class__ is ast.Call)
+    return any(_is_wait(call) and getattr(call.func, 'attr', '') not in _LATER for call in calls)
 
 
 def may_wait(node: ast.AST) -> bool:

@@ -42,7 +42,7 @@ rclpy.spin(Router())
         ("f'do_{verb}'", ['client.call']),
         ("f'{verb}_call'", ['client.call']),
         ("f'do_{verb}_now'", []),
-        ("f'{verb}'", []),
+        ("f'{verb}'", ['unknown wait']),
         ("'do_' + verb", ['client.call']),
         ("'d' + 'o_' + verb", ['client.call']),
         ("verb + '_call'", ['client.call']),

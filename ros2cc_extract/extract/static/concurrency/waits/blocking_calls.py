@@ -32,6 +32,7 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import waki
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
     timeout_of,
     unknown_wait,
+    wait_of_one,
 )
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_endless, minds_nothing
 from ros2cc_extract.extract.static.python.branching.parameter_branches import only_if
@@ -184,7 +185,7 @@ class Waits(ConcurrentMachine):
                 places.append(call.place)
         if self.note_clock_call(call):
             return
-        why = unknown_wait(function, call, self.world.trees)
+        why = wait_of_one(self.world, function) or unknown_wait(function, call, self.world.trees)
         if why is not None:
             self.note_blocking(UNKNOWN_WAIT, Mystery(why), timeout_of(call), call.place)
 

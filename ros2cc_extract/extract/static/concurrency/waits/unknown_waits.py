@@ -5,8 +5,20 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static.concurrency.waits.completed_futures import is_done_before
+from ros2cc_extract.extract.static.program.relevance import holds_thread
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
-from ros2cc_extract.extract.static.python.values.values import Call, Const, Mystery, Value
+from ros2cc_extract.extract.static.python.machine.world import World
+from ros2cc_extract.extract.static.python.objects.reachable_texts import reachable
+from ros2cc_extract.extract.static.python.values.looked_up import LookedUp
+from ros2cc_extract.extract.static.python.values.values import (
+    Bound,
+    Call,
+    Const,
+    Function,
+    Mystery,
+    Partial,
+    Value,
+)
 from ros2cc_extract.source_locations import Unknown
 
 _ALWAYS = frozenset(
@@ -43,6 +55,20 @@ def unknown_wait(function: Mystery, call: Call, trees: list[ast.Module]) -> Unkn
     if name == 'accept' and any(id(node) in noted_on(tree, 'alone', _alone) for tree in trees):
         return None  # a socket's gives the connection; a dialogue of a window's gives nothing
     return Unknown(f'{ast.unparse(node.func)}: {reason}', function.unknown.at or call.place)
+
+
+def wait_of_one(world: World, function: Mystery) -> Unknown | None:
+    """Why what was looked up by a computed name may wait, if a function that it may be does."""
+    for each in function.functions if isinstance(function, LookedUp) else ():
+        inner = each
+        while isinstance(inner, Partial):
+            inner = inner.function
+        known = inner.function if isinstance(inner, Bound) else inner
+        if not isinstance(known, Function) or known.name.startswith('__'):
+            continue
+        if any(holds_thread(text) for text in reachable(world, known.node)):
+            return Unknown(f'{function.unknown.reason} may be {known.name}', function.unknown.at)
+    return None
 
 
 def timeout_of(call: Call) -> Value | None:

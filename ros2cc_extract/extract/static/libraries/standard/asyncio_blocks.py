@@ -10,18 +10,25 @@ from __future__ import annotations
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import taking_of
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.libraries.standard.asyncio_loops import (
+    STARTED,
     coroutine_of,
     make_task,
 )
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
-from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
+from ros2cc_extract.extract.static.python.machine.library_table import (
+    AWAITED,
+    Library,
+    LibraryClass,
+)
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
-from ros2cc_extract.extract.static.python.machine.waitable_objects import INITIAL
+from ros2cc_extract.extract.static.python.machine.waitable_objects import INITIAL, OF_LOOP
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
     Const,
+    Coroutine,
     Instance,
+    Native,
     Value,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
@@ -38,10 +45,27 @@ def _enter_group(machine: ConcurrentMachine, receiver: Value, call: Call) -> Val
 
 def _start(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """The group keeps the task."""
-    task = make_task(machine, NONE, call)
+    world, given = machine.world, call.args[0] if call.args else NONE
+    is_awaited_here = world.effects is not None and world.on_loop
+    if is_awaited_here and isinstance(given, Coroutine):
+        task = machine.task_of_loop(given, call.place) or _task_here(given, call)
+    else:
+        task = make_task(machine, NONE, call)
     if isinstance(receiver, Instance):
         kept = receiver.slots.get(_TASKS, ())
         machine.store.write(receiver, _TASKS, (*kept, task))
+    return task
+
+
+def _task_here(coroutine: Coroutine, call: Call) -> Instance:
+    """The code that runs the loop does what the task does, at the end of the block at last."""
+    task = Instance(Name('asyncio.Future'), call.place)
+    task.state = PlainState(OF_LOOP, place=call.place)
+
+    def awaited(machine: ConcurrentMachine, _: Value, inner: Call) -> Value:
+        return machine.await_value(coroutine, inner.place)
+
+    task.slots[AWAITED], task.slots[STARTED] = Native('asyncio.Task', awaited), NONE
     return task
 
 

@@ -7,16 +7,21 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
-from ros2cc_extract.extract.static.python.builtins import builtin_methods, given_functions
+from ros2cc_extract.extract.static.python.builtins import (
+    builtin_methods,
+    dispatching,
+    generators,
+    given_functions,
+    heaps_and_chains,
+)
 from ros2cc_extract.extract.static.python.builtins.code_behind import asked_as
 from ros2cc_extract.extract.static.python.builtins.given_functions import called_at_once
 from ros2cc_extract.extract.static.python.builtins.map_and_zip import filtered, mapped, zipped
-from ros2cc_extract.extract.static.python.builtins.methods_by_name import methods_named_like
+from ros2cc_extract.extract.static.python.builtins.methods_by_name import get_attribute
 from ros2cc_extract.extract.static.python.builtins.sorting import identity, in_order
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import of_items
-from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.dataclass_fields import field
 from ros2cc_extract.extract.static.python.objects.iterators import iterator
@@ -268,26 +273,6 @@ def _extreme(act: str) -> Handler:
     return handler
 
 
-def _getattr(machine: Machine, receiver: Value, call: Call) -> Value:
-    if len(call.args) < 2 or not isinstance(call.args[1], Const):
-        like = methods_named_like(machine, call) if len(call.args) > 1 else None
-        return like or machine.mystery('getattr with a computed name', call.place, 'getattr(…)')
-    name = str(call.args[1].value)
-
-    def of(owner: Value) -> Value:
-        machine.note_attribute(owner, name, AccessKind.READ, call.place)
-        exists = machine.has_attribute(owner, name)
-        default = call.argument(2)
-        if exists is False and default is not None:
-            return default
-        found = machine.attribute(owner, name, call.place)
-        if exists is None and default is not None and isinstance(found, Mystery):
-            return choice([found, default])
-        return found
-
-    return choice([of(owner) for owner in options_of(call.args[0])])
-
-
 def _setattr(machine: Machine, receiver: Value, call: Call) -> Value:
     owner = call.args[0] if call.args else NONE
     own = machine.special_method(owner, '__setattr__', call.place)
@@ -428,12 +413,13 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.bool': _scalar(bool),
     'builtins.ord': _letter(ord),
     'builtins.chr': _letter(chr),
+    'builtins.anext': generators.anext_of,
     'builtins.any': _of_all(stops_on=True),
     'builtins.all': _of_all(stops_on=False),
     'builtins.max': _extreme('max'),
     'builtins.min': _extreme('min'),
     'builtins.sum': _sum,
-    'builtins.getattr': _getattr,
+    'builtins.getattr': get_attribute,
     'builtins.setattr': _setattr,
     'builtins.hasattr': _hasattr,
     'builtins.isinstance': _isinstance,
@@ -486,6 +472,8 @@ TABLE = Library(
     functions={
         **_FUNCTIONS,
         **given_functions.FUNCTIONS,
+        **heaps_and_chains.FUNCTIONS,
+        **dispatching.FUNCTIONS,
         'importlib.import_module': _import_module,
     },
     constants={

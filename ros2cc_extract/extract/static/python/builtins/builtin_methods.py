@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ros2cc_extract.extract.static.python.builtins import computed_names
 from ros2cc_extract.extract.static.python.builtins.given_functions import called_at_once
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.world import AccessKind
@@ -65,6 +66,8 @@ def set_attribute(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, (Instance, Class)) and isinstance(name, Const):
         machine.name_value(value, str(name.value))
         machine.set_attribute(receiver, str(name.value), value, call.place)
+    else:
+        computed_names.keep(machine, receiver, name, value, call.place)
     return NONE
 
 
@@ -72,6 +75,15 @@ def set_attribute_of(machine: Machine, _receiver: Value, call: Call) -> Value:
     """``object.__setattr__(owner, name, value)``."""
     owner = call.args[0] if call.args else NONE
     return set_attribute(machine, owner, Call(call.place, call.args[1:]))
+
+
+def attribute_of(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``object.__getattribute__(owner, name)``, or that of an object."""
+    given = call.args if receiver == NONE else [receiver, *call.args]
+    owner, name = (*given, NONE, NONE)[:2]
+    if isinstance(name, Const) and isinstance(name.value, str):
+        return machine.attribute(owner, name.value, call.place)
+    return machine.mystery('attribute with a computed name', call.place, '__getattribute__')
 
 
 def field_method(value: Fields, name: str) -> Value | None:
@@ -113,6 +125,8 @@ def _set_field_once(machine: Machine, receiver: Value, call: Call) -> Value:
     found = field(machine, receiver, key, call.place)
     if found is None and isinstance(key, Const):
         machine.store_field(receiver.owner, str(key.value), value, call.place)
+    elif found is None or not isinstance(key, Const):
+        computed_names.keep(machine, receiver.owner, key, value, call.place)
     return found or value
 
 
@@ -125,6 +139,8 @@ def _update_fields(machine: Machine, receiver: Value, call: Call) -> Value:
     for key, value in given.items():
         if isinstance(key, Const):
             machine.store_field(receiver.owner, str(key.value), value, call.place)
+        else:
+            computed_names.keep(machine, receiver.owner, key, value, call.place)
     return NONE
 
 

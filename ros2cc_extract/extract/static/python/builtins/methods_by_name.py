@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator
 
+from ros2cc_extract.extract.static.python.builtins.computed_names import any_of_owner, stored_so
+from ros2cc_extract.extract.static.python.builtins.text_ends import ends_of
 from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.values.values import (
+    NONE,
     Call,
     Class,
+    Const,
     Function,
     Instance,
     Mystery,
@@ -20,10 +24,35 @@ from ros2cc_extract.extract.static.python.values.values import (
 _MANY = 40
 
 
-def methods_named_like(machine: Machine, call: Call) -> Value | None:
+def get_attribute(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``getattr(owner, name)``."""
+    if len(call.args) < 2 or not isinstance(call.args[1], Const):
+        owner, asked = (*call.args, NONE, NONE)[:2]
+        stored = stored_so(owner, asked)
+        like = _methods_named_like(machine, call) if len(call.args) > 1 else None
+        if stored is not None and like is not None and machine.world.effects is not None:
+            return choice([*options_of(stored), *options_of(like)])  # of another word, perhaps
+        return stored or like or any_of_owner(owner, asked, call.place)
+    name = str(call.args[1].value)
+
+    def of(owner: Value) -> Value:
+        machine.note_attribute(owner, name, AccessKind.READ, call.place)
+        exists = machine.has_attribute(owner, name)
+        default = call.argument(2)
+        if exists is False and default is not None:
+            return default
+        found = machine.attribute(owner, name, call.place)
+        if exists is None and default is not None and isinstance(found, Mystery):
+            return choice([found, default])
+        return found
+
+    return choice([of(owner) for owner in options_of(call.args[0])])
+
+
+def _methods_named_like(machine: Machine, call: Call) -> Value | None:
     """What ``getattr(owner, 'do_' + word)`` may give: each method so named, or the default."""
     name = call.args[1]
-    ends = _ends_of(name.node) if isinstance(name, Mystery) else None
+    ends = ends_of(name.node) if isinstance(name, Mystery) else None
     if ends is None:
         return None
     found: list[Value] = []
@@ -44,27 +73,3 @@ def _methods(owner: Instance, first: str, last: str) -> Iterator[str]:
             is_named = name.startswith(first) and name.endswith(last)
             if isinstance(value, Function) and is_named and len(name) > len(first + last):
                 yield name
-
-
-def _ends_of(text: ast.expr | None) -> tuple[str, str] | None:
-    """How a text that the source puts together begins and ends, if anything of it is known."""
-    match text:
-        case ast.JoinedStr(values=[first, *_] as parts):
-            ends = _constant(first), _constant(parts[-1])
-        case ast.BinOp(left=left, op=ast.Add(), right=right):
-            ends = _beginning(left), _constant(right)
-        case ast.BinOp(left=ast.Constant(value=str(form)), op=ast.Mod()):
-            ends = form.partition('%s')[0], form.rpartition('%s')[2]
-        case _:
-            return None
-    return ends if any(ends) else None
-
-
-def _beginning(sum_: ast.expr) -> str:
-    while isinstance(sum_, ast.BinOp) and isinstance(sum_.op, ast.Add):
-        sum_ = sum_.left
-    return _constant(sum_)
-
-
-def _constant(part: ast.expr) -> str:
-    return str(part.value) if isinstance(part, ast.Constant) else ''

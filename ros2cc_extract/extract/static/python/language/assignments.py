@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import narrowed_types
-from ros2cc_extract.extract.static.python.builtins import code_behind
+from ros2cc_extract.extract.static.python.builtins import code_behind, computed_names
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -147,8 +147,11 @@ class Assignments(Machine):
         if method is not None:
             self.call(method, Call(frame.place(target), [key, value]))
             return
-        if isinstance(owner, Fields) and isinstance(key, Const):
-            self.store_field(owner.owner, str(key.value), value, frame.place(target))
+        if isinstance(owner, Fields):
+            if isinstance(key, Const):
+                self.store_field(owner.owner, str(key.value), value, frame.place(target))
+            else:
+                computed_names.keep(self, owner.owner, key, value, frame.place(target))
             return
         self.world.refilling, self.world.reading.stored = loops.has_key(owner, key), value
         self.note_update(target.value, frame, AccessKind.UPDATE_IN_PLACE)

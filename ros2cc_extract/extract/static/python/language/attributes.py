@@ -7,6 +7,8 @@ import ast
 from ros2cc_extract.extract.static.python.branching import open_tests
 from ros2cc_extract.extract.static.python.builtins import (
     builtin_methods,
+    computed_names,
+    dispatching,
     generators,
     given_functions,
 )
@@ -23,6 +25,7 @@ from ros2cc_extract.extract.static.python.values.containers import (
     Sequence,
 )
 from ros2cc_extract.extract.static.python.values.enumerations import Member
+from ros2cc_extract.extract.static.python.values.partial_methods import PartialMethod
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -53,6 +56,9 @@ def _owner_text(text: str | ast.expr) -> str | ast.expr:
 
 def _defines(cls: Value, name: str) -> bool:
     return isinstance(cls, Class) and name in cls.slots
+
+
+_GETTER, _ANY = '__getattribute__', '(any)'
 
 
 class Attributes(Machine):
@@ -107,6 +113,8 @@ class Attributes(Machine):
                 return NEW
             if (value.name, name) == ('builtins.object', '__setattr__'):
                 return Native(name, builtin_methods.set_attribute_of, NONE)
+            if (value.name, name) == ('builtins.object', _GETTER):
+                return Native(name, builtin_methods.attribute_of, NONE)
             member = self.library_member(value, None, name, place)
             return member or self.library(f'{value.name}.{name}')
         if isinstance(value, Super):
@@ -130,6 +138,10 @@ class Attributes(Machine):
         return self._of_callable(value, name)
 
     def _of_instance(self, value: Instance, name: str, place: Place) -> Value | None:
+        if self.world.intercepts:
+            given = self._intercepted(value, name, place)
+            if given is not None:
+                return given
         if name in self.world.described and setters_behind(self, value, name):
             return self._in_order(value.mro, value, name, place)
         if name in value.slots and isinstance(value.slots[name], Value):
@@ -145,7 +157,12 @@ class Attributes(Machine):
             return self.attribute_as_of_now(value, name, found, place)
         if not isinstance(found, (Bound, Native)):
             open_tests.note_attribute(self, value, name, found)
-        return found or self._handed_on(value, name, place)
+        found = found or self._handed_on(value, name, place)
+        if found is None or isinstance(found, Mystery):
+            computed = computed_names.held(self, value, name)
+            rest = [found] if found is not None else []
+            return choice([*computed, *rest]) if computed else found
+        return found
 
     def _handed_on(self, owner: Instance, name: str, place: Place) -> Value | None:
         """What ``__getattr__`` of a scanned class gives for an attribute it lacks."""
@@ -155,6 +172,18 @@ class Attributes(Machine):
         if not isinstance(getter, Bound):
             return None
         return self._called_by_looking(owner, name, getter, Call(place, [Const(name)]))
+
+    def _intercepted(self, owner: Instance, name: str, place: Place) -> Value | None:
+        """What an own ``__getattribute__`` gives, unless that looks further as Python does."""
+        if name.startswith('__') or (id(owner), _ANY) in self.world.looking:
+            return None
+        if not any(_defines(cls, _GETTER) for cls in owner.mro):
+            return None
+        getter = self._in_order(owner.mro, owner, _GETTER, place)
+        if not isinstance(getter, Bound):
+            return None
+        given = self._called_by_looking(owner, _ANY, getter, Call(place, [Const(name)]))
+        return None if isinstance(given, Mystery) else given
 
     def _called_by_looking(self, owner: Instance, name: str, getter: Bound, call: Call) -> Value:
         """The result of code behind an attribute; what it makes, it makes once for ``owner``."""
@@ -200,6 +229,11 @@ class Attributes(Machine):
     def _bind(self, member: Value, receiver: Value, place: Place) -> Value:
         if isinstance(member, Instance) and member.cls is not receiver:
             return self._described(member, receiver, place)
+        if isinstance(member, PartialMethod) and isinstance(receiver, Instance):
+            bound = self._bind(member.function, receiver, place)
+            return Partial(bound, member.args, member.keywords, member.more)
+        if isinstance(member, Native) and member.name == dispatching.METHOD:
+            return Partial(member, (receiver,), {}) if isinstance(receiver, Instance) else member
         if not isinstance(member, Function):
             return member
         if member.binding == 'static':
@@ -267,6 +301,8 @@ class Attributes(Machine):
             return NEW
         if name == '__setattr__' and not any(_defines(cls, name) for cls in behind):
             return Native(name, builtin_methods.set_attribute, receiver)
+        if name == _GETTER and not any(_defines(cls, name) for cls in behind):
+            return Native(name, builtin_methods.attribute_of, receiver)
         return self._in_order(behind, receiver, name, place)
 
     def _of_callable(self, value: Value, name: str) -> Value | None:
@@ -289,4 +325,4 @@ class Attributes(Machine):
             return type_call(NONE)
         if isinstance(value, Native) and name == '__name__':
             return Const(value.name)
-        return None
+        return dispatching.member(value, name) if isinstance(value, Native) else None

@@ -8,6 +8,7 @@ from typing import Any
 from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS
 from ros2cc_extract.extract.static.python.branching import narrowed_types, open_tests
 from ros2cc_extract.extract.static.python.branching.order_of_text import Asked
+from ros2cc_extract.extract.static.python.builtins import computed_names, executed_texts
 from ros2cc_extract.extract.static.python.language.try_blocks import is_lack_uncaught
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -51,7 +52,11 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
         return machine.mystery(f'{function.name}()', call.place)
     machine.world.reading.calls += 1
-    result = machine.call(function, call)
+    if isinstance(node.func, ast.Attribute):
+        computed_names.note_hidden(machine, function, node.func.attr, call)
+    result = executed_texts.executed(machine, function, call, node, frame)
+    if result is None:
+        result = machine.call(function, call)
     asked.done()
     if isinstance(function, Native) and function.name == 'builtins.isinstance':
         return narrowed_types.answer_of(machine, node, function, call, result, frame)

@@ -89,10 +89,10 @@ class Calls(Machine):
 
     def call_function(self, function: Function, call: Call) -> Value:
         """Run a scanned function; that of a coroutine or generator only makes it."""
-        if function.is_coroutine:
-            return Coroutine(function, call)
         if generators.is_generator(function):
             return Generator(function, call)
+        if function.is_coroutine:
+            return Coroutine(function, call)
         run = partial(self.run_shortly, function)
         if memoization.is_kept(function):
             return memoization.recall(self, function, call, run)
@@ -343,6 +343,7 @@ class Calls(Machine):
         naming = self.special_method(value, '__set_name__', cls.place)
         if naming is not None:
             self.call(naming, Call(cls.place, [cls, Const(name)]))
+        self.world.intercepts |= name == '__getattribute__'
         if self.special_method(value, '__set__', cls.place) is not None:
             self.world.described.add(name)
 
@@ -398,7 +399,7 @@ class Calls(Machine):
         if not isinstance(turn, Bound) or not isinstance(turn.function, Function):
             return None
         given = self.call(turn, Call(place))
-        generators.run(self, given, place)
+        generators.run(self, given, place, turns=True)
         is_whole = isinstance(given, Sequence) and not given.others
         return given.items if is_whole and isinstance(given, Sequence) and given.items else None
 

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from functools import partial
 
+from ros2cc_extract.extract.static.program.generator_texts import yields_each_round
 from ros2cc_extract.extract.static.python.branching import (
     correlated_tests,
     open_tests,
     parameter_branches,
 )
+from ros2cc_extract.extract.static.python.builtins import generators
 from ros2cc_extract.extract.static.python.language import loops_as_while
 from ros2cc_extract.extract.static.python.machine import path_facts
 from ros2cc_extract.extract.static.python.machine.block_exits import BREAK, CONTINUE, NEXT, RETURN
@@ -144,16 +146,22 @@ def run_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int
     begun = machine.begin_rounds(counting) if counting is not None else None
     values = open_tests.evaluate_iterated(machine, node, frame)
     machine.note_for(node, frame)
-    values = iterators.iterated(machine, values, place)
-    step = iterators.next_of(machine, values, place)
+    is_async = isinstance(node, ast.AsyncFor)
+    values = iterators.iterated(machine, values, place, is_async=is_async)
+    step = iterators.next_of(machine, values, place, is_async=is_async)
     rounds = values if step is None else machine.mystery('as many rounds as it gives items', place)
-    items = loops.items_to_run(machine, rounds, place)
+    is_driven = (machine.world.one_by_one or machine.world.turning) and yields_each_round(
+        node.body
+    )
+    with generators.handed_on(machine) if is_driven else nullcontext():
+        items = loops.items_to_run(machine, rounds, place)
 
     with _loop(machine, frame), machine.world.reading.in_loop(NOTHING_ASKED):
-        with loops.repeated(machine, items, node.body) as begin:
+        with nullcontext() if is_driven else loops.repeated(machine, items, node.body) as begin:
 
             def once(item: Value) -> int:
-                begin(item)
+                if begin is not None:
+                    begin(item)
                 machine.assign(node.target, step() if step is not None else item, frame)
                 machine.world.assume_picked(values, item)
                 return _round(machine, node.body, frame)
@@ -179,6 +187,7 @@ def _or_else(machine: Machine, node: ast.For | ast.AsyncFor, flow: int, frame: F
 
 def run_while(machine: Machine, node: ast.While, frame: Frame) -> int:
     """Run a ``while``: one round of it, if it may have one."""
+    node = loops_as_while.asked_by_method(machine, node, frame)
     holds, asked = open_tests.decide_loop(machine, node, frame)
     if holds is False or (holds is None and machine.is_over(node, frame)):
         return machine.execute_block(node.orelse, frame)

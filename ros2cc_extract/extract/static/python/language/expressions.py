@@ -359,6 +359,9 @@ def _yield(machine: Expressions, node: ast.Yield, frame: Frame) -> Value:
     value = machine.evaluate(node.value, frame) if node.value else NONE
     frame.held = frame.held if frame.yields else machine.world.held
     frame.yields.append(value)
+    if node is machine.world.first_yield:
+        machine.world.first_yield = None
+        machine.stop_program()
     if isinstance(machine.world.count, Unknown):
         frame.many[value] = machine.why_many()
     elif machine.world.path != frame.path:
@@ -367,7 +370,9 @@ def _yield(machine: Expressions, node: ast.Yield, frame: Frame) -> Value:
 
 
 def _yield_from(machine: Expressions, node: ast.YieldFrom, frame: Frame) -> Value:
-    items = loops.items_in(machine, machine.evaluate(node.value, frame), frame.place(node))
+    given = machine.evaluate(node.value, frame)
+    with generators.handed_on(machine):
+        items = loops.items_in(machine, given, frame.place(node))
     frame.yields.extend(items.known)
     frame.many.update(items.many)
     if items.others is not None:

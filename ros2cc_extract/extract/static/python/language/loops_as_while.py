@@ -17,7 +17,7 @@ from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.builtins import generators
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.values.values import Bound, Function, Library
+from ros2cc_extract.extract.static.python.values.values import Bound, Function, Instance, Library
 
 _ENDLESS = {'itertools.count': 2, 'itertools.repeat': 1}
 """What gives items forever, with at most so many arguments."""
@@ -47,6 +47,54 @@ def as_while(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> as
     loop = noted_on(node, 'as_while', _endless)
     machine.assign(node.target, machine.mystery('a counter', frame.place(node.iter)), frame)
     return loop
+
+
+def asked_by_method(machine: Machine, node: ast.While, frame: Frame) -> ast.While:
+    """``while gate:`` as ``while gate.__bool__():`` where a class of the program has that."""
+    operands = [part for part in _operands(node.test) if isinstance(part, _NAMED)]
+    asked = {id(each): name for each in operands if (name := _method_of(machine, each, frame))}
+    if not asked:
+        return node
+    key = 'asked_by_' + '_'.join(asked.get(id(each), '') for each in operands)
+    return noted_on(node, key, lambda node: _asked(node, asked))
+
+
+_NAMED = (ast.Name, ast.Attribute)
+_METHODS = ('__bool__', '__len__')
+
+
+def _operands(test: ast.expr) -> list[ast.expr]:
+    """What is asked for its truth: ``a`` and ``b`` in ``a and not b``."""
+    if isinstance(test, ast.BoolOp):
+        return [part for each in test.values for part in _operands(each)]
+    if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
+        return _operands(test.operand)
+    return [test]
+
+
+def _method_of(machine: Machine, operand: ast.expr, frame: Frame) -> str | None:
+    noted, machine.world.effects = machine.world.effects, None
+    value, place = machine.evaluate(operand, frame), frame.place(operand)
+    machine.world.effects = noted
+    if not isinstance(value, Instance):
+        return None
+    return next((n for n in _METHODS if machine.special_method(value, n, place)), None)
+
+
+def _asked(node: ast.While, asked: dict[int, str]) -> ast.While:
+    def rewritten(test: ast.expr) -> ast.expr:
+        if isinstance(test, ast.BoolOp):
+            made: ast.expr = ast.BoolOp(test.op, [*map(rewritten, test.values)])
+        elif isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
+            made = ast.UnaryOp(test.op, rewritten(test.operand))
+        elif id(test) in asked:
+            method = ast.Attribute(test, asked[id(test)], ast.Load())
+            made = ast.Call(ast.copy_location(method, test), [], [])
+        else:
+            return test
+        return ast.copy_location(made, test)
+
+    return ast.copy_location(ast.While(rewritten(node.test), node.body, node.orelse), node)
 
 
 def _is_endless_generator(machine: Machine, function: ast.expr, frame: Frame) -> bool:

@@ -25,6 +25,7 @@ from ros2cc_extract.extract.static.python.language.control_flow import (
     run_match,
     run_while,
 )
+from ros2cc_extract.extract.static.python.language.kept_generators import kept
 from ros2cc_extract.extract.static.python.language.try_blocks import (
     is_lack_uncaught,
     run_try,
@@ -183,7 +184,9 @@ def _assign(machine: Statements, node: ast.Assign, frame: Frame) -> int:
 def _assign_to(machine: Statements, node: ast.Assign, frame: Frame) -> int:
     _note_literal(machine, node.value, node.targets, frame)
     behind = machine.last_wait()
-    value = open_tests.evaluate_copied(machine, node.value, node.targets, frame)
+    value = kept(machine, node.value, frame) or open_tests.evaluate_copied(
+        machine, node.value, node.targets, frame
+    )
     with machine.in_one_piece(node, frame), stored_after(machine, behind, node.value, frame):
         for target in node.targets:
             machine.assign(target, value, frame)
@@ -202,7 +205,9 @@ def _assign_annotated(machine: Statements, node: ast.AnnAssign, frame: Frame) ->
     if node.value is not None:
         _note_literal(machine, node.value, [node.target], frame)
         behind = machine.last_wait()
-        value = open_tests.evaluate_copied(machine, node.value, [node.target], frame)
+        value = kept(machine, node.value, frame) or open_tests.evaluate_copied(
+            machine, node.value, [node.target], frame
+        )
         with stored_after(machine, behind, node.value, frame):
             machine.assign(node.target, value, frame)
         machine.world.reading.flowing = frozenset()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from functools import partial
 
 from ros2cc_extract.extract.static.python.builtins import builtin_methods
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -107,6 +108,11 @@ def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame
         method = machine.attribute(owner, '__getitem__', place)
         if isinstance(method, Bound):
             return machine.call(method, Call(place, [key]))
+        missing = machine.special_method(owner, '__missing__', place)
+        if missing is not None:
+            asked = partial(machine.call, missing, Call(place, [key]))
+            known = machine.mystery('item that was there before', place, node)
+            return machine.branch([asked, lambda: known], place)
     by_default = items_by_default(owner)
     index = loops.index_of(default_of(key) or key, len(by_default))
     if by_default and index is not None:

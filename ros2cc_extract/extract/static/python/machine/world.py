@@ -100,6 +100,12 @@ class World:
     :param settled: instances in which nothing was left to follow, with a stamp of that time.
     :param without_caller: the objects on which functions without a known caller were followed.
     :param yielding: the last generator that ran, with the locks that it keeps while it yields.
+    :param one_by_one: whoever takes the items of the generator that runs takes one at a time.
+    :param handing_on: the same of the items that are taken now: they are handed on one by one.
+    :param turning: the generator that runs gives its items to who runs the coroutine.
+    :param computed_name: where an object has got functions under names that are not known.
+    :param intercepts: some class has an own ``__getattribute__``.
+    :param first_yield: where the generator that runs stops, if nothing was taken from it yet.
     :param looking: the properties that are running, by owner and name.
     :param unset_globals: values of globals that known code only sets to ``None``, by file, name.
     :param same_unknowns: arguments of unknown callers that one attribute holds in turn.
@@ -162,6 +168,12 @@ class World:
     chain: tuple[Place, ...] = ()
     held: tuple[str, ...] = ()
     yielding: tuple[Value, tuple[str, ...]] | None = None
+    one_by_one: bool = False
+    handing_on: bool = False
+    turning: bool = False
+    intercepts: bool = False
+    computed_name: Place | None = None
+    first_yield: ast.expr | None = None
     diagnostics: list[Diagnostic] = field(default_factory=list)
     called: dict[int, Function] = field(default_factory=dict)
     without_caller: dict[int, set[int]] = field(default_factory=dict)

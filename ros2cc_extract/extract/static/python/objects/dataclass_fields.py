@@ -11,7 +11,13 @@ import ast
 from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.values.values import Call, Class, Instance, Value
+from ros2cc_extract.extract.static.python.values.values import (
+    Call,
+    Class,
+    Instance,
+    Library,
+    Value,
+)
 from ros2cc_extract.source_locations import Place
 
 
@@ -40,8 +46,9 @@ def field(machine: Machine, receiver: Value, call: Call) -> Value:
 
 
 def is_dataclass(cls: Class) -> bool:
-    """Whether a decorator makes its ``__init__`` from its fields."""
-    return any(
+    """Whether a decorator, or ``NamedTuple``, makes it from its fields."""
+    bases = (base.name for base in cls.bases if isinstance(base, Library))
+    return 'typing.NamedTuple' in bases or any(
         'dataclass' in ast.dump(decorator) or 'attr' in ast.dump(decorator)
         for decorator in cls.node.decorator_list
     )

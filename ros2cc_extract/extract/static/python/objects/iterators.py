@@ -38,16 +38,22 @@ def iterator(call: Call) -> Value | None:
     return RepeatedCall(call.args[0]) if len(call.args) == 2 else None
 
 
-def iterated(machine: Machine, value: Value, place: Place) -> Value:
+def iterated(machine: Machine, value: Value, place: Place, *, is_async: bool = False) -> Value:
     """What a loop over ``value`` goes over: what an object's ``__iter__`` gives, else itself."""
-    method = _method(machine, value, '__iter__', place)
+    method = _method(machine, value, '__aiter__' if is_async else '__iter__', place)
     return machine.call(method, Call(place)) if method is not None else value
 
 
-def next_of(machine: Machine, value: Value, place: Place) -> Callable[[], Value] | None:
+def next_of(
+    machine: Machine, value: Value, place: Place, *, is_async: bool = False
+) -> Callable[[], Value] | None:
     """Gives an item each time, where ``value`` is an iterator of its own."""
     if isinstance(value, RepeatedCall):
         return lambda: machine.call(value.function, Call(place))
+    if is_async:
+        taken = _method(machine, value, '__anext__', place)
+        if taken is not None:
+            return lambda: machine.await_value(machine.call(taken, Call(place)), place)
     method = _method(machine, value, '__next__', place) or _of_lines(machine, value, place)
     if method is None:
         return None

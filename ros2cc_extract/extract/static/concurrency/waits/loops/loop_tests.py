@@ -14,7 +14,7 @@ from ros2cc_extract.extract.static.program.text_queries import walk
 
 LEAVES = (ast.Break, ast.Return, ast.Raise)
 
-_LETTING = (ast.Yield, ast.Await)
+_LETTING = (ast.Yield, ast.YieldFrom, ast.Await)
 """What lets others run."""
 
 _INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)

@@ -53,6 +53,7 @@ from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import (
     minds_nothing,
     spins,
 )
+from ros2cc_extract.extract.static.program.generator_texts import yields_each_round
 from ros2cc_extract.extract.static.program.retried_calls import is_retried
 from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
@@ -211,7 +212,8 @@ def _note_busy(
 def _gives_back(machine: ConcurrentMachine, loop: ast.While) -> bool:
     """Whether a coroutine that an executor runs gives its thread back in each round."""
     frees = machine.world.in_callback and not machine.world.on_loop
-    return frees and awaits_each_round(loop)
+    is_turn = machine.world.turning and yields_each_round(loop.body)
+    return frees and (awaits_each_round(loop) or is_turn)
 
 
 def _note_things(
@@ -331,7 +333,8 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
         return
     known = len(effects.blocking)
     _note(machine, loop, frame, tests, seen, sent_up_to(effects, before.order))
-    if any(isinstance(part, (ast.Yield, ast.YieldFrom)) for part in walk(loop)):
+    gives = any(isinstance(part, (ast.Yield, ast.YieldFrom)) for part in walk(loop))
+    if gives and not _gives_back(machine, loop):
         reason = Unknown('what takes the items may change what the loop reads', frame.place(loop))
         effects.blocking[known:] = [
             replace(block, on=reason, resource=None, escapes=reason)
