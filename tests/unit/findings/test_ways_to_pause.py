@@ -18,6 +18,7 @@ import asyncio, concurrent.futures, functools, multiprocessing, queue, select, s
 import subprocess, threading, time, urllib.request
 from time import monotonic, sleep
 import rclpy
+from rclpy.duration import Duration
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
@@ -45,6 +46,21 @@ executor.add_node(Arm())
 executor.spin()
 """
 WAYS = {
+    'ros_clock': (
+        'pass',
+        'end = self.get_clock().now() + Duration(seconds=2)\n'
+        'while rclpy.ok() and self.get_clock().now() < end:\n    time.sleep(0.01)',
+    ),
+    'ros_clock_since': (
+        'pass',
+        'begun = self.get_clock().now()\n'
+        'while (self.get_clock().now() - begun).nanoseconds / 1e9 < 2.0:\n    pass',
+    ),
+    'ros_clock_span': (
+        'pass',
+        'begun = self.get_clock().now()\n'
+        'while Duration(seconds=1, nanoseconds=10**9) > self.get_clock().now() - begun:\n    pass',
+    ),
     'sleep': ('pass', 'time.sleep(2)'),
     'alias': ('pass', 'sleep(2)'),
     'arith': ('pass', 'time.sleep(1.0 / 10 * 20)'),

@@ -98,7 +98,10 @@ def _is_of_others(wait: AnyWait) -> bool:
     """Whether a device or another program ends it: a read of a socket, a child, a request."""
     wakers = wait.block.wakers
     is_outside = bool(wakers) and all(waker.by == OUTSIDE for waker in wakers)
-    return wait.kind is WaitKind.OTHER and is_outside and wait.has_timeout
+    return wait.kind in _OUTSIDE and is_outside and wait.has_timeout
+
+
+_OUTSIDE = frozenset({WaitKind.OTHER, WaitKind.PRESENCE})
 
 
 def _as_timed(wait: Wait, context: Context) -> Wait:
@@ -251,7 +254,8 @@ def _help(wait: Wait, executor: Executor) -> str:
 
 def _is_rare(wait: Wait, others: Sequence[Callback]) -> bool:
     """Whether it mostly ends sooner, or only the services that rclpy has made wait."""
-    return not _is_sleep(wait) and (not others or bool(wait.needs))
+    is_mostly_there = bool(wait.needs) or wait.kind is WaitKind.PRESENCE
+    return not _is_sleep(wait) and (not others or is_mostly_there)
 
 
 def _missing(wait: Wait, others: Sequence[Callback]) -> Iterator[Remark]:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from math import ceil
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import CLOCKS, ROS_CLOCKS
+from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import CLOCKS
 from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
@@ -20,7 +20,11 @@ from ros2cc_extract.extract.static.python.values.values import Const
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.spec.effects import BUSY_LOOP, PAUSES
 
-_CLOCKS = CLOCKS - ROS_CLOCKS - {'time_ns'}
+_CLOCKS = CLOCKS - {'time_ns', 'get_clock'}
+_NANO = 1e-9
+_DURATION = 'Duration'
+_UNITS = {'seconds': 1.0, 'nanoseconds': _NANO}
+"""Of its arguments, in seconds."""
 _GOES_ON = 'ok'
 """``rclpy.ok()`` beside the test of the time changes nothing while the program runs."""
 
@@ -95,12 +99,14 @@ def _only_test(test: ast.expr) -> ast.Compare | None:
 
 
 def _asks_whether_it_goes_on(test: ast.expr) -> bool:
-    called = test.func if isinstance(test, ast.Call) and not test.args else None
-    return isinstance(called, (ast.Attribute, ast.Name)) and _name(called) == _GOES_ON
+    return isinstance(test, ast.Call) and not test.args and _called(test) == _GOES_ON
 
 
-def _name(node: ast.Attribute | ast.Name) -> str:
-    return node.attr if isinstance(node, ast.Attribute) else node.id
+def _called(call: ast.Call) -> str | None:
+    function = call.func
+    if isinstance(function, ast.Attribute):
+        return function.attr
+    return function.id if isinstance(function, ast.Name) else None
 
 
 def _seconds(
@@ -113,10 +119,26 @@ def _seconds(
         sides = () if added is None else (added.left, added.right)
         later = [side for side in sides if not _is_clock(side)]
         return _number(machine, later[0], frame) if len(later) == 1 else None
-    is_since = isinstance(less, ast.BinOp) and isinstance(less.op, ast.Sub)
-    if is_since and isinstance(less, ast.BinOp) and _is_clock(less.left):
-        return _number(machine, more, frame) if _is_clock(_stored(less.right, frame)) else None
-    return None
+    passed, unit = _passed(less)
+    if not isinstance(passed, ast.BinOp) or not isinstance(passed.op, ast.Sub):
+        return None
+    if not _is_clock(passed.left) or not _is_clock(_stored(passed.right, frame)):
+        return None
+    limit = _number(machine, more, frame)
+    return None if limit is None else limit * unit
+
+
+def _passed(node: ast.expr) -> tuple[ast.expr, float]:
+    """``(clock() - begun).nanoseconds / 1e9``: the difference, and the seconds of its unit."""
+    unit = 1.0
+    if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Div, ast.Mult)):
+        factor = node.right.value if isinstance(node.right, ast.Constant) else None
+        if not isinstance(factor, (int, float)) or factor == 0:
+            return node, unit
+        unit, node = factor if isinstance(node.op, ast.Div) else 1 / factor, node.left
+    if isinstance(node, ast.Attribute) and node.attr == 'nanoseconds':
+        unit, node = unit * _NANO, node.value
+    return node, unit
 
 
 def _rounds(
@@ -153,8 +175,7 @@ def _step(loop: ast.While, counter: ast.expr, sign: type[ast.operator]) -> float
 
 
 def _is_clock(node: ast.expr | None) -> bool:
-    called = node.func if isinstance(node, ast.Call) else None
-    return isinstance(called, (ast.Attribute, ast.Name)) and _name(called) in _CLOCKS
+    return isinstance(node, ast.Call) and _called(node) in _CLOCKS
 
 
 def _stored(node: ast.expr, frame: Frame) -> ast.expr | None:
@@ -171,6 +192,19 @@ def _stored(node: ast.expr, frame: Frame) -> ast.expr | None:
 
 
 def _number(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> float | None:
+    if isinstance(node, ast.Call) and _called(node) == _DURATION and not node.args:
+        return _span(machine, node, frame)
     held = machine.evaluate(node, frame)
     value = held.value if isinstance(held, Const) else None
     return value if isinstance(value, (int, float)) else None
+
+
+def _span(machine: ConcurrentMachine, call: ast.Call, frame: Frame) -> float | None:
+    """Seconds of ``Duration(seconds=1, nanoseconds=500)``."""
+    whole = 0.0
+    for given in call.keywords:
+        value, unit = _number(machine, given.value, frame), _UNITS.get(given.arg or '')
+        if value is None or unit is None:
+            return None
+        whole += value * unit
+    return whole
