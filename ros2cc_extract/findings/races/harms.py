@@ -101,3 +101,26 @@ def _read_together(
         is_apart = comes_before(reads[0], reader, writer) or comes_before(write, writer, reader)
         if not is_apart:
             yield Use(reader, reads[0]), Use(writer, write)
+
+
+def overwritten(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """What one has written and reads back after a wait, and the other writes in the same code."""
+    for reader, writer in ((one, other), (other, one)):
+        for read in reader.reads:
+            own = _last_write_before(read, reader)
+            if own is None or read.compared or not waits(own, read, reader):
+                continue
+            kept = kept_between(own, read, reader)
+            yield from (
+                (Use(reader, read), Use(writer, write))
+                for write in writes_of(writer).get(read.name, ())
+                if write.source == own.source
+                and not keep_apart(kept, write.locks)
+                and are_unordered(Use(reader, read), Use(writer, write))
+            )
+
+
+def _last_write_before(read: Access, doer: Doer) -> Access | None:
+    own = writes_of(doer).get(read.name, ())
+    plain = [w for w in own if not w.in_place and not w.update and steps(w) < steps(read)]
+    return max(plain, key=steps, default=None)

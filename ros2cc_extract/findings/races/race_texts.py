@@ -35,6 +35,8 @@ def describe(race: Race) -> str:
         'items out meanwhile: Python raises IndexError in the loop',
         RaceKind.TAKEN: f'{first} finds an item in {names} and then takes one out, and {others} '
         'may take the last one in between: then it raises an exception',
+        RaceKind.OVERWRITTEN: f'{first} writes {names}, waits and reads {it} back, and {others} '
+        f'may write {it} in between: then it gets what was meant for the other',
         RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
         'at the same time: one change can get lost',
         RaceKind.CHECK_THEN_ACT: f'{first} reads {names} and then writes {it}, and {others} may '

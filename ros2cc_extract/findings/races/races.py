@@ -32,6 +32,7 @@ from ros2cc_extract.findings.races.critical_sections import (
 )
 from ros2cc_extract.findings.races.flag_locks import as_shared, shared_by
 from ros2cc_extract.findings.races.harms import (
+    overwritten,
     torn_messages,
     torn_states,
     uses_cleared,
@@ -72,6 +73,7 @@ class RaceKind(Enum):
     EMPTIED = 'emptied after a look'
     SHRUNK_IN_LOOP = 'shrunk in a loop'
     TAKEN = 'taken in between'
+    OVERWRITTEN = 'overwritten'
     LOST_UPDATE = 'lost update'
     CHECK_THEN_ACT = 'check then act'
     CHECK_THEN_CHANGE = 'check then change'
@@ -88,6 +90,7 @@ _OWN_HARM = (
     RaceKind.EMPTIED,
     RaceKind.SHRUNK_IN_LOOP,
     RaceKind.TAKEN,
+    RaceKind.OVERWRITTEN,
 )
 """What not every other write does."""
 LOSING = (RaceKind.LOST_UPDATE, RaceKind.CHECK_THEN_ACT, RaceKind.WHOLE_UPDATE)
@@ -263,6 +266,7 @@ def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
     others += [(RaceKind.EMPTIED, *pair) for pair in emptied(one, other)]
     others += [(RaceKind.SHRUNK_IN_LOOP, *pair) for pair in shrunk_in_loop(one, other)]
     others += [(RaceKind.TAKEN, *pair) for pair in taken_in_between(one, other)]
+    others += [(RaceKind.OVERWRITTEN, *pair) for pair in overwritten(one, other)]
     others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(one, other)]
     others += [(RaceKind.TORN, *pair) for pair in torn_messages(one, other)]
     others += [(RaceKind.TORN_STATE, *pair) for pair in torn_states(one, other)]

@@ -46,6 +46,12 @@ executor.add_node(Arm())
 executor.spin()
 """
 WAYS = {
+    'deadline_or_data': (
+        'self.axis = None',
+        'end = time.monotonic() + 3.0\n'
+        'while time.monotonic() < end:\n'
+        '    if self.axis:\n        return\n    time.sleep(0.1)',
+    ),
     'ros_clock': (
         'pass',
         'end = self.get_clock().now() + Duration(seconds=2)\n'

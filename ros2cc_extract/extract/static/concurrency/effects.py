@@ -185,9 +185,7 @@ class Effects(Waits):
             chosen=chosen,
             rests=is_used or (rests and not (is_read or (is_stored and is_import))),
             compared=is_read and at in reading.compared,
-            later=reading.has_called_since(name, self.world.path)
-            if is_used or (is_content and is_tested)
-            else is_stored and flows and reading.has_called_since_read(name),
+            later=self._is_late(name, is_used=is_used or (is_content and is_tested), kind=kind),
             clears=is_stored and reading.stored == NONE,
             lowers=is_stored and reading.stored != NONE and _is_false(reading.stored),
             found=reading.found_of(name, self.world.path) if is_stored else None,
@@ -203,6 +201,16 @@ class Effects(Waits):
             reading.forget(name, self.world.path)
         if not is_read:
             self._note_written(effects, name, place)
+
+    def _is_late(self, name: str, *, is_used: bool, kind: AccessKind) -> bool:
+        """Whether others have surely been let in between what was read before and this."""
+        world, reading = self.world, self.world.reading
+        if is_used or kind is not AccessKind.WRITE:
+            return is_used and reading.has_called_since(name, world.path)
+        if name in reading.flowing:
+            return reading.has_called_since_read(name)
+        begun = world.effects.begun if world.effects is not None else 0
+        return reading.has_begun_since(name, world.path, begun)
 
     def _turn_of_store(self) -> tuple[Place, ...]:
         waited = self.world.reading.waited

@@ -23,7 +23,7 @@ from ros2cc_extract.findings.waits.long_held_locks import LongHold, long_holds
 from ros2cc_extract.findings.waits.remedies import AWAIT_SLEEP, is_on_loop
 from ros2cc_extract.findings.waits.waits import AnyWait, Wait, WaitKind, waits_of
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
-from ros2cc_extract.spec.effects import BUSY_LOOP, OUTSIDE
+from ros2cc_extract.spec.effects import BUSY_LOOP, OUTSIDE, POLLING_LOOP
 from ros2cc_extract.spec.model import Callback, EntityKind, Executor
 from ros2cc_extract.verify.results.rates import least_slept_s, period_of
 
@@ -157,6 +157,7 @@ _TIMED = frozenset(
         'Future.result',
         'Lock.acquire',
         'Semaphore.acquire',
+        POLLING_LOOP,
     }
 )
 
@@ -275,7 +276,8 @@ def _how_long(wait: AnyWait) -> str:
         return f'asks a clock in a loop for{most} {seconds:g} s{often}'
     if _is_sleep(wait):
         return f'sleeps {seconds:g} s{often}'
-    return f'waits up to {seconds:g} s{often} in {wait.block.call}'
+    where = f'a {POLLING_LOOP}' if wait.block.call == POLLING_LOOP else wait.block.call
+    return f'waits up to {seconds:g} s{often} in {where}'
 
 
 def _how_often(more: Sequence[Wait], longest: Wait) -> str:

@@ -77,7 +77,7 @@ def evaluate_subject(machine: Machine, node: ast.Match, frame: Frame) -> None:
     with reading.of(found):
         machine.evaluate(node.subject, frame)
     reading.tests[place] = frozenset(found) | computed_from(node.subject, frame.sources)
-    reading.tested_at[place] = calls
+    note_tested(machine, place, calls)
 
 
 def _decide_tested(
@@ -97,8 +97,15 @@ def _decide_tested(
     known = frozenset() if is_first else reading.tests.get(place, frozenset())
     reading.tests[place] = known | found | computed_from(node.test, frame.sources)
     if is_first:
-        reading.tested_at[place] = calls
+        note_tested(machine, place, calls)
     return holds
+
+
+def note_tested(machine: Machine, place: Place, calls: int) -> None:
+    """Note what had happened before a test."""
+    reading, effects = machine.world.reading, machine.world.effects
+    reading.tested_at[place] = calls
+    reading.begun_at[place] = effects.begun if effects is not None else 0
 
 
 def decide_loop(machine: Machine, node: ast.While, frame: Frame) -> tuple[bool | None, Asked]:

@@ -286,6 +286,7 @@ class Calls(Machine):
             binding = _BINDINGS.get(_last_name(decorator))
             if binding is not None and isinstance(value, Function):
                 value.binding = binding
+                memoization.keep_if_cached(self, value, _last_name(decorator))
                 continue
             if isinstance(decorator, ast.Attribute) and decorator.attr in ACCESSORS:
                 return self._with_accessor(function, decorator, frame)

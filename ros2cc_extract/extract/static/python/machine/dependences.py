@@ -63,7 +63,8 @@ class Reading:
     :param value_end: where the value ends that is stored now.
     :param calls: how many calls there were.
     :param tested_at: how many there were before a test, by its place; ``read_at`` before the last
-        read, by the name of what was read.
+        read, by the name of what was read. ``begun_at``: how many functions of the program had
+        begun before a test.
     :param refusing: names because of which a goal was turned down.
     :param asked: the tests of branches, by their place; ``loops`` those of the loops around.
     :param down: flags that were found down, by the step of the path on which they are.
@@ -93,6 +94,7 @@ class Reading:
     calls: int = 0
     tested_at: dict[Place, int] = field(default_factory=dict)
     read_at: dict[str, int] = field(default_factory=dict)
+    begun_at: dict[Place, int] = field(default_factory=dict)
     passed: Path = ()
 
     @contextmanager
@@ -159,6 +161,12 @@ class Reading:
         behind = self.behind(path)
         tests = (place for place, _ in behind if name in self.tests.get(place, ()))
         return self.calls > max((self.tested_at.get(place, 0) for place in tests), default=0)
+
+    def has_begun_since(self, name: str, path: Path, begun: int) -> bool:
+        """Whether a function of the program began since ``name`` was tested last."""
+        behind = self.behind(path)
+        tests = (place for place, _ in behind if name in self.tests.get(place, ()))
+        return begun > max((self.begun_at.get(place, begun) for place in tests), default=begun)
 
     def is_in_one_piece(self, name: str, path: Path) -> bool:
         """Whether no code writes ``name`` since it was read for what is stored now."""

@@ -1,5 +1,5 @@
 """
-Calls that give the same object again: ``lru_cache``, and what may do so unseen.
+Calls that give one object again: ``lru_cache``, ``cached_property``, and what may do so unseen.
 
 Source: CPython 3.12, ``functools.py`` (one result for each arguments, by position and by name).
 """
@@ -39,6 +39,12 @@ def keep_results(machine: Machine, receiver: Value, call: Call) -> Value:
     if isinstance(function, Class):
         return Native('lru_cache', _kept_class(function, _Results()), function)
     return Native('lru_cache(…)', keep_results)
+
+
+def keep_if_cached(machine: Machine, function: Function, decorator: str) -> None:
+    """``@cached_property`` asks once for each object (``functools.py``)."""
+    if decorator == 'cached_property':
+        machine.store.write(function, _KEPT, _Results())
 
 
 class _Results(Heaped, Value):
