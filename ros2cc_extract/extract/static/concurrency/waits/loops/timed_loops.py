@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Const
 from ros2cc_extract.light_dataclasses import dataclass
+from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import BUSY_LOOP, PAUSES, POLLING_LOOP
 
 _CLOCKS = CLOCKS - {'time_ns', 'get_clock'}
@@ -73,7 +74,8 @@ def note(
     tests = {frame.place(part) for part in _whole(loop)}
     if any(block.source in tests for block in inside):
         for number, block in enumerate(inside, first):
-            if block.call == POLLING_LOOP and block.source in tests and length.seconds is not None:
+            ends_otherwise = isinstance(block.seconds, Unknown) and length.seconds is not None
+            if block.call == POLLING_LOOP and block.source in tests and ends_otherwise:
                 effects.blocking[number] = replace(block, seconds=length.seconds)
         return  # it waits for data as a whole
     pauses = [block for block in inside if block.call in PAUSES and not block.suspends]
