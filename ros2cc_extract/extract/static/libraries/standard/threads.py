@@ -431,4 +431,9 @@ TABLE = Library(
         # A context has all that the module has (``multiprocessing/context.py``).
         'multiprocessing.get_context': lambda machine, _, call: machine.library('multiprocessing'),
     },
+    aliases={
+        # Threads in spite of the name (``multiprocessing/dummy/__init__.py``).
+        'multiprocessing.dummy.Process': 'threading.Thread',
+        'multiprocessing.dummy.DummyProcess': 'threading.Thread',
+    },
 )

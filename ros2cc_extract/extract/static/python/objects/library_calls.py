@@ -98,7 +98,7 @@ class LibraryCalls(Machine):
         if isinstance(function, Mystery):
             name = function.text
         self._keep_escaped(call)
-        if is_standard(name):
+        if is_standard(name) and not name.startswith(_CALLING_BACK):
             return
         self.note_handed((*call.args, *call.keywords.values()), call.place, name)
         if not name:
@@ -178,6 +178,10 @@ def _add_state(instance: Instance, make: Callable[[], Any], row: LibraryClass) -
         made = make()
         instance.slots[BESIDE] = first if is_beside else made
         instance.state = made if is_beside else first
+
+
+_CALLING_BACK = 'tkinter.'
+"""Of the standard library, what calls functions later, in the thread of its main loop."""
 
 
 def is_standard(name: str) -> bool:
