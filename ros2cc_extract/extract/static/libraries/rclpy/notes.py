@@ -19,7 +19,11 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.durations import (
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.settled_loops import is_over_before
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, NodeState
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
+    EntityState,
+    ExecutorState,
+    NodeState,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.tables.async_nodes import (
     loop_node,
     node_of_loop,
@@ -29,7 +33,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.tables.clients import (
     result_of,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.tables.clocks import serve
-from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import node_executor
+from ros2cc_extract.extract.static.libraries.rclpy.tables.executors import add_node, node_executor
 from ros2cc_extract.extract.static.libraries.rclpy.tables.nodes import (
     CREATE_CALLS,
     NODE,
@@ -202,6 +206,15 @@ class RosNotes(StandardBlocks, RosMachine):
         task = self.future(place, OF_LOOP if loop is None else OF_POOL)
         note_its_end(self, task, place)
         return task
+
+    def note_held(self, owner: Value, name: str, value: Value) -> None:
+        """``node.executor = executor`` adds the node (``node.py``, the setter of ``executor``)."""
+        super().note_held(owner, name, value)
+        is_node = isinstance(owner, Instance) and isinstance(owner.state, NodeState)
+        if is_node and name == 'executor' and isinstance(value, Instance):
+            assert isinstance(owner, Instance)
+            if isinstance(value.state, ExecutorState):
+                add_node(self, value, owner)
 
     def is_over(self, node: ast.While, frame: Frame) -> bool:
         """A callback may be made only behind a loop that its method comes to again."""
