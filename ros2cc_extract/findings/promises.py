@@ -18,7 +18,7 @@ from ros2cc_extract.findings.races.handed_functions import races_with_others
 from ros2cc_extract.findings.rules.deadlocks.never_ends import RULE as NEVER_ENDS
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
-from ros2cc_extract.findings.waits.verdicts import NODE_KEPT, PROGRESS
+from ros2cc_extract.findings.waits.verdicts import NODE_KEPT, PROGRESS, SELF_OVERLAP
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
@@ -218,8 +218,13 @@ class _Unit:
         if self.unit.unresolved:
             fact = self.unit.unresolved[0]
             yield f'{fact.fact} of {fact.subject} is not known ({fact.reason})'
+        overlapping = [
+            each
+            for each in self.verification.results
+            if each.family == SELF_OVERLAP and each.verdict is Verdict.NOT_SATISFIED
+        ]
         for result in self.verification.results:
-            if result.family == SERIAL and is_pool:
+            if result.family == SERIAL and is_pool and not overlapping:
                 if result.verdict is Verdict.UNDECIDED:
                     yield result.reason or 'a limit was hit'
                 elif result.verdict is Verdict.SATISFIED:

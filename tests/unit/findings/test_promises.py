@@ -282,3 +282,21 @@ def test_what_an_attempt_costs_is_not_reported_beside_a_loop_that_never_ends(
     verification = verify_unit(close(unit), Options(profile=Profile.RCLPY))
     found = findings_of([unit], [], [verification])
     assert [each.code for each in found if each.code[:3] in ('CC1', 'CC2')] == codes
+
+
+@pytest.mark.parametrize(
+    ('group', 'settings'), [('ReentrantCallbackGroup', 'KEPT'), (None, 'OPEN')]
+)
+def test_threads_have_an_effect_where_one_callback_overlaps_itself(
+    group: str | None, settings: str
+) -> None:
+    made = f'callback_group=rclpy.callback_groups.{group}()' if group else ''
+    text = (
+        NODE.replace('import rclpy\n', 'import rclpy.callback_groups\n')
+        .replace('self.move)', f'self.move, {made})')
+        .replace('Arm())', 'Arm(), rclpy.executors.MultiThreadedExecutor(num_threads=2))')
+    )
+    [unit] = scan_text(text, 'arm.py').units
+    judged = judge(unit, verify_unit(close(unit), Options(profile=Profile.RCLPY)), ())
+    marked = {each.promise: each.mark.name for each in judged}
+    assert marked[Promise.SETTINGS] == settings
