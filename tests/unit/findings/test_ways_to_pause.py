@@ -178,3 +178,20 @@ def test_a_sleep_of_unknown_length_leaves_it_open(tmp_path: Path, seconds: str) 
     out = StringIO()
     main(['check', '--no-cache', str(tmp_path / 'arm.py')], out, StringIO())
     assert '? no starvation: how long Arm.on_go sleeps at ' in out.getvalue()
+
+
+@pytest.mark.parametrize(
+    'body',
+    [
+        'i = 0\nwhile i < 1e400:\n    time.sleep(0.1)\n    i += 1',
+        'i = 0\nwhile i < 5:\n    time.sleep(0.1)\n    i += 1e-320',
+        'end = time.time() + 1e400\nwhile time.time() < end:\n    time.sleep(1e-300)',
+        'end = time.time() + 10**400\nwhile time.time() < end:\n    pass',
+        't = time.time()\nwhile (time.time() - t) / 1e-320 < 3:\n    pass',
+        't = time.time()\nwhile (time.time() - t) / 0 < 3:\n    pass',
+        'b, most = self.get_clock().now(), Duration(seconds=10**400, nanoseconds=1e400)\n'
+        'while self.get_clock().now() - b < most:\n    pass',
+    ],
+)
+def test_numbers_with_which_nobody_counts_say_nothing(tmp_path: Path, body: str) -> None:
+    assert told(tmp_path, 'pass', body, ONE) == []

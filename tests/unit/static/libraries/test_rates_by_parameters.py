@@ -38,8 +38,17 @@ def test_the_period_of_a_rate_is_the_inverse(frequency: str, period: float) -> N
     assert [each.period_s for each in unit.callbacks if each.library] == [period]
 
 
-@pytest.mark.parametrize('frequency', ['load()', "5 if self.count_publishers('x') else 10"])
+@pytest.mark.parametrize(
+    'frequency',
+    ['10**400', 'load()', "5 if self.count_publishers('x') else 10"],
+)
 def test_one_of_an_unknown_frequency_stays_open(frequency: str) -> None:
     (unit,) = scan_text(PROGRAM.format(frequency=frequency)).units
     (timer,) = [each for each in unit.callbacks if each.library]
     assert isinstance(timer.period_s, Unknown)
+
+
+@pytest.mark.parametrize('frequency', ['0', '1e400', '1e-320'])
+def test_no_period_comes_from_what_no_rate_has(frequency: str) -> None:
+    (unit,) = scan_text(PROGRAM.format(frequency=frequency)).units
+    assert [each.period_s for each in unit.callbacks if each.library] == [None]

@@ -23,6 +23,9 @@ from ros2cc_extract.spec.effects import BUSY_LOOP, PAUSES, POLLING_LOOP
 
 _CLOCKS = CLOCKS - {'time_ns', 'get_clock'}
 _NANO = 1e-9
+_LEAST, _MOST = 1e-12, 1e12
+"""Other numbers are not counted with."""
+_MOST_ROUNDS = 1_000_000
 _DURATION = 'Duration'
 _UNITS = {'seconds': 1.0, 'nanoseconds': _NANO}
 """Of its arguments, in seconds."""
@@ -58,7 +61,7 @@ def length_of(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Leng
         machine.world.effects = noted
     if seconds is None and rounds is None:
         return None
-    return Length(seconds, None if rounds is None else rounds + (not is_exact))
+    return Length(seconds, None if rounds is None else min(_MOST_ROUNDS, rounds + (not is_exact)))
 
 
 def note(
@@ -82,7 +85,7 @@ def note(
     slept = sum(b.seconds * b.times for b in pauses if isinstance(b.seconds, (int, float)))
     rounds = length.rounds
     if length.seconds is not None and slept > 0:
-        rounds = ceil(length.seconds / slept)
+        rounds = ceil(min(_MOST_ROUNDS, length.seconds / slept))
     if rounds is not None and slept > 0:
         effects.blocking[first:] = [
             replace(block, times=block.times * max(1, rounds)) if block in pauses else block
@@ -138,8 +141,8 @@ def _passed(node: ast.expr) -> tuple[ast.expr, float]:
     """``(clock() - begun).nanoseconds / 1e9``: the difference, and the seconds of its unit."""
     unit = 1.0
     if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Div, ast.Mult)):
-        factor = node.right.value if isinstance(node.right, ast.Constant) else None
-        if not isinstance(factor, (int, float)) or factor == 0:
+        factor = _usual(node.right.value) if isinstance(node.right, ast.Constant) else None
+        if factor is None or factor < _LEAST:
             return node, unit
         unit, node = factor if isinstance(node.op, ast.Div) else 1 / factor, node.left
     if isinstance(node, ast.Attribute) and node.attr == 'nanoseconds':
@@ -175,8 +178,8 @@ def _step(loop: ast.While, counter: ast.expr, sign: type[ast.operator]) -> float
     for each in loop.body:
         is_step = isinstance(each, ast.AugAssign) and isinstance(each.op, sign)
         if is_step and isinstance(each, ast.AugAssign) and stores == [each.target]:
-            step = each.value.value if isinstance(each.value, ast.Constant) else None
-            return step if isinstance(step, (int, float)) and step > 0 else None
+            step = _usual(each.value.value) if isinstance(each.value, ast.Constant) else None
+            return step if step is not None and step >= _LEAST else None
     return None
 
 
@@ -201,8 +204,13 @@ def _number(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> float |
     if isinstance(node, ast.Call) and _called(node) == _DURATION and not node.args:
         return _span(machine, node, frame)
     held = machine.evaluate(node, frame)
-    value = held.value if isinstance(held, Const) else None
-    return value if isinstance(value, (int, float)) else None
+    return _usual(held.value) if isinstance(held, Const) else None
+
+
+def _usual(value: object) -> float | None:
+    """A number of a size with which one can count; ``1e400`` is infinite."""
+    is_number = isinstance(value, (int, float)) and abs(value) <= _MOST
+    return float(value) if is_number and isinstance(value, (int, float)) else None
 
 
 def _span(machine: ConcurrentMachine, call: ast.Call, frame: Frame) -> float | None:

@@ -275,8 +275,13 @@ def _inverse(frequency: Value) -> Value | None:
     if isinstance(frequency, Choice):
         periods = [_inverse(each) for each in options_of(frequency)]
         return choice([period for period in periods if period is not None]) or None
-    is_number = isinstance(frequency, Const) and isinstance(frequency.value, (int, float))
-    return Const(1.0 / frequency.value) if is_number and frequency.value else None  # type: ignore[attr-defined]
+    hertz = frequency.value if isinstance(frequency, Const) else None
+    is_usual = isinstance(hertz, (int, float)) and _LEAST_HZ <= abs(hertz) <= _MOST_HZ
+    return Const(1.0 / hertz) if is_usual and isinstance(hertz, (int, float)) else None
+
+
+_LEAST_HZ, _MOST_HZ = 1e-12, 1e12
+"""Of a rate whose period is a number to count with."""
 
 
 def _create_publisher(machine: RosMachine, receiver: Value, call: Call) -> Value:
