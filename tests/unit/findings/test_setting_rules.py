@@ -109,7 +109,9 @@ def test_a_callback_with_many_sleeps_is_one_finding_at_the_longest() -> None:
 def test_rounds_of_a_loop_and_short_sleeps_add_up() -> None:
     nap = sleeps(0.25, 40)[0]
     spec = unit(ONE_THREAD, timer('a', blocking=(replace(nap, times=5),)), timer('b'))
-    assert only(spec, 'CC201').message.startswith('a sleeps 0.25 s 5 times and holds the only')
+    assert only(spec, 'CC201').message.startswith(
+        'a sleeps 0.25 s 5 times (1.25 s in all) and holds the only'
+    )
     naps = (replace(nap, times=2), *sleeps(0.6, 50))
     finding = only(unit(ONE_THREAD, timer('a', blocking=naps), timer('b')), 'CC201')
     assert finding.place == at(50)

@@ -168,7 +168,7 @@ _ENDS = frozenset({'Thread.join', 'Process.join', 'Future.result', 'Executor.shu
 _ANSWERED = _TIMED | {'client.call'}
 
 
-def seconds_of(wait: Wait) -> float:
+def seconds_of(wait: AnyWait) -> float:
     """How long it lasts in all, or may last; none where that is not known."""
     seconds = wait.block.seconds
     return seconds * wait.block.times if isinstance(seconds, (int, float)) else 0.0
@@ -271,7 +271,9 @@ def _how_long(wait: AnyWait) -> str:
     seconds = wait.block.seconds
     assert isinstance(seconds, (int, float))
     most = ' up to' if wait.block.conditional else ''
-    often = f'{most} {wait.block.times} times' if wait.block.times > 1 else ''
+    often = ''
+    if wait.block.times > 1:
+        often = f'{most} {wait.block.times} times ({seconds_of(wait):g} s in all)'
     if wait.block.call == BUSY_LOOP:
         return f'asks a clock in a loop for{most} {seconds:g} s{often}'
     if _is_sleep(wait):
