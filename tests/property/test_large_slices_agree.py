@@ -137,7 +137,7 @@ def test_whom_two_ask_may_overlap_itself() -> None:
 
 @WAYS
 def test_where_one_waits(way: Way) -> None:
-    assert compared(alone(range(20)), way)
+    assert compared(alone(range(12)), way)
 
 
 @pytest.mark.slow
@@ -148,7 +148,7 @@ def test_where_one_waits_on_many(way: Way) -> None:
 
 @pytest.mark.parametrize('way', (by_loosening, by_hunts), ids=lambda way: way.__name__)
 def test_where_many_wait(way: Way) -> None:
-    assert compared(waking(range(20)), way)
+    assert compared(waking(range(12)), way)
 
 
 @pytest.mark.slow
