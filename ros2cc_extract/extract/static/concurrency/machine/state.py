@@ -47,6 +47,7 @@ class ActivityState(Doer):
     :param runners: the threads or futures that stand for it; a wait on one is a wait for its end.
     :param starts: what starts it.
     :param endless: its loop that nothing ends, the end of rclpy included.
+    :param until_shutdown: its loop that only the end of rclpy ends.
     :param again: where it starts itself anew in each run, on every branch.
     :param is_daemon: the same; ``None`` where that is not known.
     :param spins: how many spins the set-up has called before its start.
@@ -77,6 +78,7 @@ class ActivityState(Doer):
     is_daemon: bool | None = False
     loops: bool = False
     endless: Place | None = None
+    until_shutdown: Place | None = None
     again: Place | None = None
     spins: int = 0
     ends_first: bool = False
