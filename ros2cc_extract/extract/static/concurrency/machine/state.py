@@ -151,6 +151,7 @@ class OutsideWait:
     :param is_late: something has been spun before.
     :param over: what is over by then, ``path`` the undecided branches it stands in.
     :param begun: how many spins there were by then; ``None`` where their order is not known.
+    :param is_called: the program itself does so, and not a function without a known caller.
     """
 
     call: str
@@ -163,6 +164,7 @@ class OutsideWait:
     path: Path = ()
     begun: int | None = None
     names: frozenset[str] = frozenset()
+    is_called: bool = True
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,10 +30,12 @@ _INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 
 def joined_while_ok(wait: OutsideWait, world: RosWorld) -> Iterator[Diagnostic]:
     """The thread that ``wait`` joins, if only the end of rclpy ends it, which comes later."""
+    if wait.in_thread or not wait.is_called or is_shut_down(wait.over):
+        return
     for state in world.activities:
         if any(wait.client is runner for runner in state.runners) and not state.serves:
             loop = runs_on(state, world)
-            if loop is not None and not wait.in_thread and not is_shut_down(wait.over):
+            if loop is not None:
                 yield _diagnostic(wait, loop)
                 return
 
