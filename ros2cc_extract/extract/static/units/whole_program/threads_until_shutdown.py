@@ -45,8 +45,7 @@ def runs_on(state: ActivityState, world: RosWorld) -> Place | None:
     loop = state.until_shutdown
     if loop is None or state.spins >= world.main_spins or _is_shut_down_beside(world):
         return None
-    spins = [spin for spin in world.spins.values() if not spin.in_thread]
-    return loop if spins and all(_ends_by_itself(spin, world) for spin in spins) else None
+    return loop if spins_end_by_themselves(world) else None
 
 
 def is_shut_down(over: Iterable[Over]) -> bool:
@@ -59,24 +58,50 @@ def _is_shut_down_beside(world: RosWorld) -> bool:
     return any(getattr(doer, 'kind', None) is not ActivityKind.MAIN for doer in doers)
 
 
+def spins_end_by_themselves(world: RosWorld) -> bool:
+    """Whether the main program spins, and each time it has ended rclpy is still up."""
+    spins = [spin for spin in world.spins.values() if not spin.in_thread]
+    return bool(spins) and all(_ends_by_itself(spin, world) for spin in spins)
+
+
 def _ends_by_itself(spin: Spin, world: RosWorld) -> bool:
     """Whether it does one thing, and no loop repeats it until rclpy is shut down."""
     places = {spin.place, *(place for chain in spin.chains for place in chain)}
     is_short = not spin.for_ever and spin.how.endswith(_ONCE)
-    return is_short and all(_ends(loop) for place in places for loop in _around(place, world))
+    return is_short and all(_ends(loop) for place in places for loop in loops_around(place, world))
 
 
 def _ends(loop: ast.While) -> bool:
-    """Whether its text has an end of its own, and nothing that asks whether rclpy is up."""
-    parts = list(walk(loop))
-    if any(getattr(part, 'attr', getattr(part, 'id', '')) == 'ok' for part in parts):
+    """Whether it has an end of its own, which nothing ties to that of rclpy."""
+    test, tests = loop.test, [loop.test]
+    if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And):
+        tests = test.values
+    own = [each for each in tests if not _asks(each) and not _is_true(each)]
+    parts = [part for each in (*own, *loop.body) for part in walk(each)]
+    if any(map(_asks, parts)):
         return False
-    is_for_ever = isinstance(loop.test, ast.Constant) and bool(loop.test.value)
-    return not is_for_ever or any(isinstance(part, (ast.Break, ast.Return)) for part in parts)
+    caught = {
+        id(inside)
+        for part in parts
+        if isinstance(part, ast.ExceptHandler)
+        for inside in walk(part)
+    }
+    left = (part for part in parts if isinstance(part, (ast.Break, ast.Return)))
+    return bool(own) or any(id(part) not in caught for part in left)
 
 
-def _around(place: Place, world: RosWorld) -> Iterator[ast.While]:
-    """The loops of a function that a line of it stands in."""
+def _asks(part: ast.AST) -> bool:
+    """Whether it is ``rclpy.ok()``."""
+    function = part.func if isinstance(part, ast.Call) else None
+    return getattr(function, 'attr', getattr(function, 'id', '')) == 'ok'
+
+
+def _is_true(test: ast.expr) -> bool:
+    return isinstance(test, ast.Constant) and bool(test.value)
+
+
+def loops_around(place: Place, world: RosWorld) -> Iterator[ast.While]:
+    """The loops that a line stands in, within its function."""
     for tree, file in world.files:
         if file == place.file:
             loops = [part for part in walk(tree) if isinstance(part, ast.While)]

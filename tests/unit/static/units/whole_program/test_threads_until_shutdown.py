@@ -47,7 +47,7 @@ def main():
 main()
 """
 UNTIL = '    while time.monotonic() < end:\n        rclpy.spin_once(node)'
-OF_OK = '    while rclpy.ok() and time.monotonic() < end:\n        rclpy.spin_once(node)'
+OF_OK = '    while rclpy.ok():\n        rclpy.spin_once(node)'
 BROKEN = """    while True:
         rclpy.spin_once(node)
         if time.monotonic() > end:
