@@ -1,4 +1,4 @@
-"""A thread that touches no node belongs to the unit with whose callbacks it shares locks or data."""
+"""A thread that touches no node belongs to the unit with which it shares locks or data."""
 
 from __future__ import annotations
 

@@ -61,7 +61,7 @@ def _shared_names(effects: EffectLog | None) -> Iterable[str]:
     """The data and the locks that code has to do with."""
     log = effects or EffectLog()
     yield from (access.name for access in (*log.reads, *log.writes))
-    yield from (lock.name for lock in log.locks)
+    yield from (lock.name for lock in log.locks if isinstance(lock.name, str))
 
 
 def _things(world: RosWorld, entity: EntityState) -> Iterable[int]:
