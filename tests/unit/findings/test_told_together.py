@@ -158,11 +158,11 @@ def slept(*callbacks: Callback) -> list[str]:
 def test_two_services_of_one_function_that_sleeps() -> None:
     sleep = (Blocking(call='time.sleep', source=at(20), seconds=2.0),)
     both = [
-        replace(service(name, blocking=sleep), function='node.Arm.on_list', cls='Arm')
+        replace(service(name, blocking=sleep), function='node.on_list')
         for name in ('list', 'list_too')
     ]
     other = service('on_go')
-    begin = 'Arm.on_list sleeps 2 s and holds the only thread of the SingleThreadedExecutor: '
+    begin = 'on_list sleeps 2 s and holds the only thread of the SingleThreadedExecutor: '
     end = ' and the parameter services of the node wait that long'
     assert slept(*both, other) == [f'{begin}on_go{end}']
-    assert slept(*both) == [f'{begin}Arm.on_list{end}']
+    assert slept(*both) == [f'{begin}on_list{end}']
