@@ -14,15 +14,17 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.answers_of_others import answers_assumed
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Context
+from ros2cc_extract.findings.base.wording import called
 from ros2cc_extract.findings.races.handed_functions import races_with_others
 from ros2cc_extract.findings.rules.deadlocks.never_ends import RULE as NEVER_ENDS
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
+from ros2cc_extract.findings.waits.stuck_callbacks import stuck_in
 from ros2cc_extract.findings.waits.verdicts import NODE_KEPT, PROGRESS, SELF_OVERLAP
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.light_dataclasses import dataclass
-from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import PAUSES
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import PAUSES, Needs
 from ros2cc_extract.spec.model import GroupType, Spec
 from ros2cc_extract.verify.results.load import LoadKind, Serving, demands_of, load_of
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
@@ -146,7 +148,26 @@ class _Unit:
         """By what waits end that the unit itself does not end."""
         timed = [f for f in self.own if _breaks(f, Promise.WAITS) and self._is_timed(f)]
         alone = [f'one by its time-out alone ({f.code} at {_at(f)})' for f in timed]
-        return '; '.join(filter(None, [answers_assumed(self.unit), *alone]))
+        last = [
+            f'as long as the program gets to {_in_file(place)}, which ends that of {who}'
+            for result in self._results(Promise.WAITS)
+            for who, place in self._ended_last(result)
+        ]
+        return '; '.join(filter(None, [answers_assumed(self.unit), *alone, *dict.fromkeys(last)]))
+
+    def _ended_last(self, result: QueryResult) -> list[tuple[str, Place]]:
+        """The threads that alone stand still in a run, and where the program ends their waits."""
+        run = result.evidence
+        if run is None or result.verdict is not Verdict.NOT_SATISFIED:
+            return []
+        stuck = stuck_in(run, Context(self.unit))
+        ended = ((s.doer, s.wait.block) for s in stuck)
+        last = [
+            (called(doer), block.at_end)
+            for doer, block in ended
+            if block.at_end is not None and block.needs is not Needs.ALL
+        ]
+        return last if len(last) == len(stuck) else []
 
     def _is_of_several(self, finding: Finding) -> bool:
         """Whether several units together stand still, as only their common model shows."""
@@ -199,8 +220,8 @@ class _Unit:
             yield f'the model refutes "{result.words}", and no rule explains it: see --verdicts'
 
     def _refuted(self, promise: Promise) -> Iterator[QueryResult]:
-        refuted = Verdict.NOT_SATISFIED
-        return (result for result in self._results(promise) if result.verdict is refuted)
+        refuted = (r for r in self._results(promise) if r.verdict is Verdict.NOT_SATISFIED)
+        return (result for result in refuted if not self._ended_last(result))
 
     def _results(self, promise: Promise) -> Iterator[QueryResult]:
         families = _FAMILIES[promise]
@@ -315,6 +336,9 @@ def _names(finding: Finding, unit: Spec) -> bool:
 
 
 def _at(finding: Finding) -> str:
-    place = finding.place
+    return _in_file(finding.place)
+
+
+def _in_file(place: Place) -> str:
     name = place.file.rpartition('/')[2]
     return f'{name}:{place.line}' if place.line else name

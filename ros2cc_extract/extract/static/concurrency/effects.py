@@ -22,7 +22,7 @@ from ros2cc_extract.extract.static.concurrency.accesses.held_locks import (
     lock_of,
     taking_of,
 )
-from ros2cc_extract.extract.static.concurrency.waits import values_during_waits
+from ros2cc_extract.extract.static.concurrency.waits import outside_waits, values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, is_main, touch
 from ros2cc_extract.extract.static.program.text_queries import (
     cleared_attributes,
@@ -143,6 +143,7 @@ class Effects(Waits):
         is_late = world.when is When.LATER or world.after_spin
         if not (is_late or world.is_beside_others):
             return
+        outside_waits.note_write(world, shown)
         function = self.stack[0].name if self.stack else ''
         by = function if world.when is When.LATER else None
         if is_late:

@@ -19,6 +19,7 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     TopicRef,
     Waking,
 )
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import come_behind
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
     is_handed_over,
@@ -239,7 +240,7 @@ class UnitWaits(DataWriters):
             wakings = wakings_of(self._world, raw.resource)
             named = replace(named, answer_to=self._answer_to(raw, raw.resource, doer))
             if is_activity(doer):
-                named = replace(named, at_end=self._ended_last(raw.resource))
+                named = replace(named, at_end=self._ended_last(raw.resource, doer))
             given = [w for w in wakings if w.word in raw.resource.ended_by]
             initial = self._initial(raw.resource, wakings)
             if given and may_find_it_done(raw, wakings, doer):
@@ -448,10 +449,12 @@ class UnitWaits(DataWriters):
             return True  # it notifies before it waits itself
         return is_kept_out(waking, reference, doer, self._doers, raw)
 
-    def _ended_last(self, reference: ResourceRef) -> Place | None:
-        """Where the program ends a wait when its spin is over."""
+    def _ended_last(self, reference: ResourceRef, doer: Doer) -> Place | None:
+        """Where the program ends a wait when its spin is over, and before it joins ``doer``."""
         wakings = (w for w in wakings_of(self._world, reference) if w.word in reference.ended_by)
-        last = (waking for waking in wakings if comes_last(waking, self._world))
+        runners = doer.runners if isinstance(doer, ActivityState) else ()
+        in_time = (w for w in wakings if not come_behind([w.ended], runners))
+        last = (waking for waking in in_time if comes_last(waking, self._world))
         return next((waking.place for waking in last), None)
 
     def _initial(self, reference: ResourceRef, mine: list[Waking]) -> int | None:

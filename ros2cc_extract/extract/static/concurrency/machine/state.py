@@ -152,6 +152,7 @@ class OutsideWait:
     :param over: what is over by then, ``path`` the undecided branches it stands in.
     :param begun: how many spins there were by then; ``None`` where their order is not known.
     :param is_called: the program itself does so, and not a function without a known caller.
+    :param held: locks that are held meanwhile.
     """
 
     call: str
@@ -165,6 +166,7 @@ class OutsideWait:
     begun: int | None = None
     names: frozenset[str] = frozenset()
     is_called: bool = True
+    held: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -217,7 +219,8 @@ class ConcurrentWorld(World):
     :param made_at: identities of the objects that others may wait on, by the place they come from.
     :param other_writes: data that is written by what no known code calls, with its name, or
         after the spin has ended, with ``None``.
-    :param writes_beside: data that the set-up writes when it has started a thread, or has spun.
+    :param writes_beside: data that the set-up writes when it has started a thread, or has spun;
+        ``main_writes`` that with the threads which it has surely waited for by each write.
     :param handed_on: functions that code which is not scanned has, as if each were a thread.
     :param cleared: events that code clears: which and where, and how many entities there were.
     :param surely_cleared: the same of those that clear them on all their branches.
@@ -286,6 +289,7 @@ class ConcurrentWorld(World):
     made_at: dict[object, list[int]] = field(default_factory=dict)
     other_writes: dict[str, tuple[str | None, Place]] = field(default_factory=dict)
     writes_beside: dict[str, Place] = field(default_factory=dict)
+    main_writes: dict[str, list[frozenset[int]]] = field(default_factory=dict)
     cleared: dict[int, dict[tuple[object, Place], int]] = field(default_factory=dict)
     surely_cleared: dict[int, set[tuple[object, Place]]] = field(default_factory=dict)
     by_loop: bool = False
