@@ -14,7 +14,10 @@ from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.answers_of_others import answers_assumed
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Context
-from ros2cc_extract.findings.races.handed_functions import races_with_others
+from ros2cc_extract.findings.races.handed_functions import (
+    races_with_others,
+    races_with_threads_left,
+)
 from ros2cc_extract.findings.rules.deadlocks.never_ends import RULE as NEVER_ENDS
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
@@ -171,6 +174,7 @@ class _Unit:
         if promise is Promise.RACES:
             yield from _copies(self.unit)
             yield from races_with_others(self.unit)
+            yield from races_with_threads_left(self.unit)
         if promise is Promise.SETTINGS:
             yield from self._without_effect()
 

@@ -278,6 +278,7 @@ class Activity:
     :param conditional: a branch may skip its start.
     :param daemon: the program ends without waiting for it.
     :param loops: it never ends by itself.
+    :param on_loop: a loop of asyncio runs it, on one thread with all else that it runs.
     :param ends_first: the set-up waits for its end, before anything spins.
     :param spins: where it runs the callbacks itself, if nothing else ever does, and one by one.
     :param source: where it is started; ``defined`` is its function.
@@ -293,6 +294,7 @@ class Activity:
     conditional: bool = False
     daemon: bool = False
     loops: bool = False
+    on_loop: bool = False
     ends_first: bool = False
     unresolved: Unknown | None = None
     source: Place | None = None

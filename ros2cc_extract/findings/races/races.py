@@ -58,7 +58,16 @@ from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.identity_memo import once
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, TAKES_ANY, Act
+from ros2cc_extract.spec.effects import (
+    ADDS,
+    FILLS,
+    FOUND_FALSE,
+    FOUND_NONE,
+    TAKES,
+    TAKES_ANY,
+    TAKES_NEXT,
+    Act,
+)
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.program_order import steps
 from ros2cc_extract.verify.results.evidence import Evidence
@@ -408,8 +417,18 @@ def _is_old_item(first: Use, second: Use) -> bool:
 
 
 def _leaves_enough(first: Use, second: Use) -> bool:
-    """Code that takes an item out because there is one finds one, if others only put items in."""
-    return first.access.moves in (TAKES, TAKES_ANY) and second.access.moves == ADDS
+    """
+    Code that takes an item out because there is one finds one, if others only put items in.
+
+    So does code that puts one in because there is room, if they only take some out.
+    """
+    mine, other = first.access.moves, second.access.moves
+    if mine == FILLS:
+        return other in _TAKING
+    return mine in _TAKING and other in (ADDS, FILLS)
+
+
+_TAKING = (TAKES, TAKES_ANY, TAKES_NEXT)
 
 
 def _leaves_as_found(first: Use, second: Use) -> bool:

@@ -161,6 +161,7 @@ class Effects(Waits):
         flows = name in reading.flowing
         chosen = is_content and (flows or name in reading.choices.get(at, ()))
         is_tested = reading.governs(name, self.world.path)
+        is_tested = is_tested or (is_content and reading.leads_to(name, self.world.path))
         rests = is_tested or flows or chosen
         is_used = rests and is_read and at in reading.used
         # What is imported is the same each time, whatever was found before.

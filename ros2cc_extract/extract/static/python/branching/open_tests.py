@@ -186,6 +186,15 @@ def evaluate_iterated(machine: Machine, node: ast.For | ast.AsyncFor, frame: Fra
     return values
 
 
+def asked_by_rounds(node: ast.For | ast.AsyncFor, frame: Frame) -> Asked:
+    """``for _ in range(q.qsize())``: as many rounds as there were items."""
+    call = node.iter
+    is_count = isinstance(call, ast.Call) and ast.unparse(call.func) == 'range'
+    names = [frame.sources.get(name, frozenset()) for name in names_in(node.target)]
+    found = frozenset[str]().union(*names) if is_count else frozenset[str]()
+    return Asked(found, frozenset(), is_open=False)
+
+
 def _others_have_run(world: World) -> bool:
     """Whether callbacks may have run since the set-up has stored something: it has spun, too."""
     return world.when is When.CALLBACK or (world.when is When.START and world.has_let_others_run)
