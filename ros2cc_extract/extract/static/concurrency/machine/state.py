@@ -302,7 +302,7 @@ class ConcurrentWorld(World):
     still_down: frozenset[str] = frozenset()
     readers: dict[Place, list[EffectLog | None]] = field(default_factory=dict)
     queues: dict[int, Any] = field(default_factory=dict)
-    homes: dict[Value, tuple[Instance, str]] = field(default_factory=dict)
+    homes: dict[Value, tuple[Value, str]] = field(default_factory=dict)
     objects: dict[Value, str] = field(default_factory=dict)
     locks: dict[str, list[Instance]] = field(default_factory=dict)
     takes: Counter[str] = field(default_factory=Counter)

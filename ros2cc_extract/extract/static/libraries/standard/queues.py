@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ros2cc_extract.extract.static.concurrency.accesses import queue_contents
+from ros2cc_extract.extract.static.concurrency.accesses.holders import queue_contents
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items, taken_out
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState

@@ -75,6 +75,7 @@ class Assignments(Machine):
                 self.note_cell(owner, name, AccessKind.WRITE, frame.place(target))
         elif frame.function is None and not scope.parent and frame.qualname == '':
             self.store.write(scope.module, name, value)
+            self.note_held(scope.module, name, value)
         else:
             self.store.write(scope, name, value)
             self.note_cell(scope, name, AccessKind.WRITE, frame.place(target))

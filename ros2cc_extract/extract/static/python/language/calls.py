@@ -267,9 +267,11 @@ class Calls(Machine):
             reversed(parameters), reversed(function.defaults), strict=False
         ):
             self.name_value(value, parameter.arg)
+            self.note_held(function, parameter.arg, value)
         for parameter, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
             if default is not None:
-                function.keyword_defaults[parameter.arg] = self.evaluate(default, frame)
+                value = function.keyword_defaults[parameter.arg] = self.evaluate(default, frame)
+                self.note_held(function, parameter.arg, value)
         if isinstance(node, ast.Lambda):
             return function
         return self._decorate(function, node, frame)
