@@ -46,11 +46,7 @@ def as_shared(doers: tuple[_Doer, ...], *contexts: Context) -> tuple[_Doer, ...]
     A flag that keeps others out stands among the locks and is no shared data itself; any other
     is shared data and no lock.
     """
-    everybody = [
-        one for context in contexts for one in (*context.written, *context.unit.activities)
-    ]
-    flags = {lock for one in everybody for access in _accesses(one) for lock in access.locks}
-    flags = {lock for lock in flags if lock.endswith(FLAG)}
+    flags = _flags_of(contexts)
     if not flags:
         return doers
     kept = {flag.removesuffix(FLAG) for flag in flags if _keeps_out(flag, contexts)}
@@ -63,6 +59,14 @@ def as_shared(doers: tuple[_Doer, ...], *contexts: Context) -> tuple[_Doer, ...]
         )
         for doer in doers
     )
+
+
+def _flags_of(contexts: Iterable[Context]) -> set[str]:
+    everybody: list[_Use] = []
+    for context in contexts:
+        everybody += [*context.written, *context.unit.activities]
+    locks = {lock for one in everybody for access in _accesses(one) for lock in access.locks}
+    return {lock for lock in locks if lock.endswith(FLAG)}
 
 
 def _accesses(callback: Callback | Activity) -> tuple[Access, ...]:
@@ -115,7 +119,7 @@ def _keeps_out(flag: str, contexts: Sequence[Context]) -> bool:
 
 
 def _writes_of(name: str, context: Context) -> list[tuple[_Use, Access]]:
-    everybody = (*context.unit.callbacks, *context.unit.activities)
+    everybody: tuple[_Use, ...] = (*context.unit.callbacks, *context.unit.activities)
     return [(one, write) for one in everybody for write in one.writes if write.name == name]
 
 

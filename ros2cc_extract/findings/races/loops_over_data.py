@@ -33,6 +33,7 @@ from ros2cc_extract.spec.program_order import steps
 
 _NOTICING = frozenset({'dict', 'set', 'deque'})
 _FEWER = frozenset({TAKES, TAKES_ANY, TAKES_NEXT, EMPTIES})
+_TAKING = _FEWER - {EMPTIES}
 _MORE = frozenset({ADDS, FILLS})
 _RIVALS = {TAKES_ANY: _FEWER, TAKES_NEXT: _FEWER, FILLS: _MORE}
 """What brings that about in which an operation fails, or waits."""
@@ -109,3 +110,15 @@ def taken_in_between(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
                 and not keep_apart(held, write.locks)
                 and are_unordered(Use(finder, take), Use(taker, write))
             )
+
+
+def leaves_enough(first: Use, second: Use) -> bool:
+    """
+    Code that takes an item out because there is one finds one, if others only put items in.
+
+    So does code that puts one in because there is room, if they only take some out.
+    """
+    mine, other = first.access.moves, second.access.moves
+    if mine == FILLS:
+        return other in _FEWER
+    return mine in _TAKING and other in _MORE

@@ -105,7 +105,7 @@ class Effects(Waits):
 
     def _note_loose(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
         """An attribute of a module, of a function, or of an object that is not scanned."""
-        shown = loose_data.shown(self.world, owner, name)
+        shown = loose_data.shown(self.world, owner, name, is_read=kind is AccessKind.READ)
         if shown is not None and kind is not AccessKind.WITHIN:
             self._note_access(shown, kind, place, name)
 
@@ -139,6 +139,8 @@ class Effects(Waits):
             torn_updates.note_held(self.world, owner, name, value, shown)
         elif isinstance(owner, (Function, Module)):
             loose_data.note_held(self.world, owner, name, value)
+        elif isinstance(owner, Mystery):
+            loose_data.note_member(self.world, owner, name, value)
 
     def _note_other_write(self, owner: Value, name: str, place: Place) -> None:
         """Code without a known caller, or that runs after the spin, writes an attribute."""

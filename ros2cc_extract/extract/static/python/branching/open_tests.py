@@ -80,6 +80,16 @@ def evaluate_subject(machine: Machine, node: ast.Match, frame: Frame) -> None:
     note_tested(machine, place, calls)
 
 
+def decide_assertion(machine: Machine, node: ast.Assert, frame: Frame) -> None:
+    """What follows an ``assert`` rests on what is read for it, as behind an ``if`` that raises."""
+    reading, place, found = machine.world.reading, frame.place(node), set[str]()
+    calls = reading.calls
+    with reading.of(found):
+        decide(machine, node.test, frame)
+    reading.tests[place] = frozenset(found) | computed_from(node.test, frame.sources)
+    note_tested(machine, place, calls)
+
+
 def _decide_tested(
     machine: Machine,
     node: ast.If | ast.IfExp,

@@ -83,7 +83,7 @@ class Statements(Machine):
                     return exits
                 if flow & LEAVING and frame.function is not None:
                     self.world.path = (*self.world.path, (frame.place(statement), -1))
-                if _may_raise(statement):
+                if isinstance(statement, ast.Assert) or _may_raise(statement):
                     reading.passed = (*reading.passed, (frame.place(statement), -1))
             return exits | NEXT
         finally:
@@ -411,7 +411,7 @@ def _constant_flow(flow: int) -> Callable[..., int]:
 
 
 def _assert(machine: Statements, node: ast.Assert, frame: Frame) -> int:
-    open_tests.decide(machine, node.test, frame)
+    open_tests.decide_assertion(machine, node, frame)
     return NEXT
 
 

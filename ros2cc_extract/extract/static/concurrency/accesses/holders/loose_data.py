@@ -7,7 +7,10 @@ the fields of a message or of another object that is not scanned and that an att
 
 from __future__ import annotations
 
+import ast
+
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
+from ros2cc_extract.extract.static.program.text_queries import CHANGING_METHODS, noted_on, walk
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -25,19 +28,39 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 
 _CODE = (Bound, Class, Function, Library, Module, Native)
+_OF_EACH_THREAD = frozenset({'threading.local(…)', 'contextvars.ContextVar(…)'})
 _FIXED = ('tuple', 'frozenset')
 
 
-def shown(world: ConcurrentWorld, owner: Value, name: str) -> str | None:
-    """What ``owner.name`` is called; ``None`` where it is no data that others see."""
+def shown(world: ConcurrentWorld, owner: Value, name: str, *, is_read: bool) -> str | None:
+    """What ``owner.name`` is called; ``None`` where it is no data that others see or change."""
+    if is_read and not any(name in noted_on(t, 'changed', _changed) for t in world.trees):
+        return None
     if isinstance(owner, Module):
         return f'{owner.name}.{name}' if _is_data(owner.slots.get(name)) else None
     if isinstance(owner, Function):
         is_own = is_own_function(owner) or name.startswith('__')
         return None if is_own or not _is_data(owner.slots.get(name)) else _of(owner, name)
-    if isinstance(owner, Mystery) and owner in world.objects:
-        return f'{world.objects[owner]}.{name}'
+    whole = world.objects.get(owner) or world.members.get(owner)
+    if isinstance(owner, Mystery) and whole is not None and owner.text not in _OF_EACH_THREAD:
+        return f'{whole}.{name}'
     return None
+
+
+def _changed(tree: ast.AST) -> frozenset[str]:
+    """The attributes that a text stores, or changes in place."""
+    return frozenset(part.attr for part in map(_target, walk(tree)) if part is not None)
+
+
+def _target(part: ast.AST) -> ast.Attribute | None:
+    if isinstance(part, ast.Call) and isinstance(part.func, ast.Attribute):
+        whole = part.func.value if part.func.attr in CHANGING_METHODS else None
+        return whole if isinstance(whole, ast.Attribute) else None
+    if isinstance(getattr(part, 'ctx', None), ast.Load):
+        return None
+    while isinstance(part, ast.Subscript):
+        part = part.value
+    return part if isinstance(part, ast.Attribute) else None
 
 
 def note_held(world: ConcurrentWorld, owner: Function | Module, name: str, value: Value) -> None:
@@ -49,6 +72,13 @@ def note_held(world: ConcurrentWorld, owner: Function | Module, name: str, value
         world.homes.setdefault(value, (owner, called))
     elif isinstance(value, Mystery):
         world.objects.setdefault(value, called)
+
+
+def note_member(world: ConcurrentWorld, owner: Value, name: str, value: Value) -> None:
+    """A field of an object that is not scanned is a part of it."""
+    whole = world.objects.get(owner) or world.members.get(owner)
+    if whole is not None and isinstance(value, Mystery):
+        world.members.setdefault(value, f'{whole}.{name}')
 
 
 def home_of_local(world: ConcurrentWorld, scope: Scope, name: str) -> str | None:
