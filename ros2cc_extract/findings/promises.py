@@ -160,7 +160,8 @@ class _Unit:
         """Give what keeps a promise from being proven, what concerns all promises first."""
         yield from self._gaps()
         for finding in self.near:
-            if _breaks(finding, promise):
+            is_noted = promise is Promise.RACES and finding.code in _CODES[promise]
+            if is_noted or _breaks(finding, promise):
                 yield f'{finding.code} at {_at(finding)}, which may concern it'
         for finding in own:
             if finding.code in _CODES[promise]:
@@ -304,7 +305,7 @@ def about(
                 near.append(finding)
         elif finding.unit == unit.name:
             own.append(finding)
-        elif unit.entry is not None and named.entry == unit.entry and _names(finding, unit):
+        elif unit.entry is not None and named.entry == unit.entry and _names(finding, unit, named):
             near.append(finding)
     return own, near
 
@@ -314,8 +315,12 @@ def _leads_to(finding: Finding, unit: Spec) -> bool:
     return any(remark.place.file in unit.sources for remark in finding.related)
 
 
-def _names(finding: Finding, unit: Spec) -> bool:
-    return not {each.name for each in unit.callbacks}.isdisjoint(finding.subjects)
+def _names(finding: Finding, unit: Spec, named: Spec) -> bool:
+    """Whether it is about a callback of ``unit``; a note, of none that the other has as well."""
+    names = {each.name for each in unit.callbacks}
+    if finding.severity is Severity.NOTE:
+        names -= {each.name for each in named.callbacks}
+    return not names.isdisjoint(finding.subjects)
 
 
 def _at(finding: Finding) -> str:
