@@ -26,7 +26,7 @@ from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, worker
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.effects import PAUSES
-from ros2cc_extract.spec.model import GroupType, Spec
+from ros2cc_extract.spec.model import ActivityKind, GroupType, Spec
 from ros2cc_extract.verify.results.load import LoadKind, Serving, demands_of, load_of
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 
@@ -316,10 +316,11 @@ def _leads_to(finding: Finding, unit: Spec) -> bool:
 
 
 def _names(finding: Finding, unit: Spec, named: Spec) -> bool:
-    """Whether it is about a callback of ``unit``; a note, of none that the other has as well."""
-    names = {each.name for each in unit.callbacks}
+    """Whether it is about what ``unit`` runs; a note, of nothing that the other has as well."""
+    threads = (each for each in unit.activities if each.kind is not ActivityKind.MAIN)
+    names = {each.name for each in (*unit.callbacks, *threads)}
     if finding.severity is Severity.NOTE:
-        names -= {each.name for each in named.callbacks}
+        names -= {each.name for each in (*named.callbacks, *named.activities)}
     return not names.isdisjoint(finding.subjects)
 
 
