@@ -17,7 +17,7 @@ from tests.support.knots import write_knots
 from tests.support.mazes import write_mazes
 from tests.support.products import every_pair
 
-LIMIT_S = 5
+LIMIT_S = 3
 REASON = f'the limit of {LIMIT_S} s for all units was reached; see --max-seconds'
 
 

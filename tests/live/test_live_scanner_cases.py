@@ -36,7 +36,7 @@ LEFT_OUT = {
     'q17_no_executor.py': 'there is no executor',
 }
 # Of so many cases one is run every time.
-SAMPLED = 7
+SAMPLED = 14
 # A case that holds what is expected is set up when it has not changed for as many looks as this;
 # one that does not may be slow.
 QUIET_LOOKS, LOOKS = 15, 1000

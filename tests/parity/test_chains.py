@@ -1,12 +1,7 @@
-"""
-Committed chains that are run through and not stored keep verdicts and shortest paths.
-
-``ROS2CC_PARITY_NETWORKS`` sets the number of random networks, as in test_engines_agree.py.
-"""
+"""Committed chains that are run through and not stored keep verdicts and shortest paths."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 
 import pytest
@@ -23,11 +18,10 @@ from ros2cc_extract.checker.api import (
 )
 from ros2cc_extract.checker.engines.search import NO_REDUCTIONS, Symmetry
 from tests.support.crowds import random_crowd
-from tests.support.networks import RandomModel, random_model
+from tests.support.networks import NETWORKS, RandomModel, random_model
 
 pytest.importorskip('ros2cc_extract.checker._core', reason='the native core is not built')
 
-NETWORKS = int(os.environ.get('ROS2CC_PARITY_NETWORKS', '200'))
 BLOCK = 25
 SMALL = 1500
 CHAINS_ALONE = Reductions(dead=False, symmetry=Symmetry.NEVER, chains=True)

@@ -1,12 +1,7 @@
-"""
-Several threads find what one finds: counts, verdicts, paths, limits and errors.
-
-``ROS2CC_PARITY_NETWORKS`` sets the number of random networks, as in test_engines_agree.py.
-"""
+"""Several threads find what one finds: counts, verdicts, paths, limits and errors."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 
 import pytest
@@ -22,7 +17,7 @@ from ros2cc_extract.checker.api import (
     read_model,
 )
 from ros2cc_extract.errors import ModelFormatError
-from tests.support.networks import random_model
+from tests.support.networks import NETWORKS, random_model
 from tests.support.published import one_group, published_model
 from tests.support.small import single
 
@@ -31,7 +26,6 @@ native = pytest.importorskip(
 )
 pytest.importorskip('ros2cc_extract.checker._core', reason='the native core is not built')
 
-NETWORKS = int(os.environ.get('ROS2CC_PARITY_NETWORKS', '200'))
 BLOCK = 25
 SMALL = 3000
 

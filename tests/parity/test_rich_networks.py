@@ -1,12 +1,7 @@
-"""
-The engines agree on networks that use much of the language, also on which of them are wrong.
-
-``ROS2CC_PARITY_NETWORKS`` sets the number of random networks, as in test_engines_agree.py.
-"""
+"""The engines agree on networks that use much of the language, also on which of them are wrong."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 
 import pytest
@@ -24,11 +19,11 @@ from ros2cc_extract.checker.api import (
 )
 from ros2cc_extract.checker.engines.search import Symmetry
 from ros2cc_extract.errors import ModelFormatError
+from tests.support.networks import NETWORKS
 from tests.support.rich_networks import rich_model
 
 pytest.importorskip('ros2cc_extract.checker._core', reason='the native core is not built')
 
-NETWORKS = int(os.environ.get('ROS2CC_PARITY_NETWORKS', '200'))
 BLOCK = 25
 SMALL = Limits(states=2000)
 ALL = Reductions(symmetry=Symmetry.ALWAYS)
@@ -118,8 +113,8 @@ def test_reductions_keep_verdicts_and_find_the_errors(block: int) -> None:
 def test_some_networks_break_a_range_and_most_do_not() -> None:
     ends = [
         isinstance(asked(model, queries[:1], Fairness.NONE, EngineKind.NATIVE), str)
-        for block in range(0, min(NETWORKS, 200), BLOCK)
+        for block in range(0, min(NETWORKS, 125), BLOCK)
         for _, model, queries in networks(block)
     ]
-    assert len(ends) >= 0.9 * min(NETWORKS, 200)
+    assert len(ends) >= 0.9 * min(NETWORKS, 125)
     assert 0 < sum(ends) < len(ends) / 4

@@ -1,12 +1,7 @@
-"""
-Networks with several like processes: every combination of reductions keeps every verdict.
-
-``ROS2CC_PARITY_NETWORKS`` sets the number of random networks, as in test_engines_agree.py.
-"""
+"""Networks with several like processes: every combination of reductions keeps every verdict."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 
 import pytest
@@ -27,10 +22,10 @@ from ros2cc_extract.checker.engines.search import Symmetry, formulas_of
 from ros2cc_extract.checker.network.semantics import Semantics, State
 from ros2cc_extract.source_locations import Place
 from tests.support.crowds import random_crowd
+from tests.support.networks import NETWORKS
 
 pytest.importorskip('ros2cc_extract.checker._core', reason='the native core is not built')
 
-NETWORKS = int(os.environ.get('ROS2CC_PARITY_NETWORKS', '200'))
 BLOCK = 25
 SMALL = 1000
 

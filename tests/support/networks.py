@@ -1,12 +1,19 @@
-"""Random networks for comparing engines: a few processes, channels of all kinds, small data."""
+"""
+Random networks for comparing engines: a few processes, channels of all kinds, small data.
+
+``ROS2CC_PARITY_NETWORKS`` sets their number for all comparisons; 5000 is the number of record.
+"""
 
 from __future__ import annotations
 
+import os
 import random
 from dataclasses import dataclass
 
 from tests.support.published import document
 from tests.support.small import automaton
+
+NETWORKS = int(os.environ.get('ROS2CC_PARITY_NETWORKS', '125'))
 
 _CHANNELS = {
     'b': 'chan b',

@@ -127,6 +127,10 @@ class Effects(Waits):
             touch(self.world.activity, owner)
         return shown
 
+    def note_replaced(self, owner: Value, name: str, old: Value) -> None:
+        """Callbacks that have run may have met it."""
+        values_during_waits.note_replaced(self.world, owner, name, old)
+
     def note_held(self, owner: Value, name: str, value: Value) -> None:
         """An attribute has got a value: a collection is known by the first one that holds it."""
         kept_threads.note_stored(self.world, owner, name, value)

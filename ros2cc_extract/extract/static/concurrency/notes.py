@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     lost_notifications,
     torn_state,
     torn_updates,
+    unreleased_locks,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.concurrency.effects import Effects
@@ -115,6 +116,10 @@ class Notes(Effects):
     def note_return(self, node: ast.Return, frame: Frame, found: Set[str]) -> None:
         """A way out of a function: flags are held there, or a goal is turned down."""
         flag_locks.note_return(self.world, frame, node, found)
+
+    def note_raised(self, error: ast.expr, place: Place) -> None:
+        """A way out of a function, where a caller catches it."""
+        unreleased_locks.note_raised(self.world, error, place)
 
     def note_left(self, frame: Frame, *, goes_on: bool) -> None:
         """A flag that is held on some ways out only is not held for certain."""

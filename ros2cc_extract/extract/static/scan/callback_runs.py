@@ -203,7 +203,9 @@ def _run_callback(
             world.count = Unknown('made each time the callback runs', entity.place)
             world.path = ((entity.place, IN_A_CALLBACK),)
         world.callback_path = world.path
-        mark = None if transition in BUILDING else machine.store.open_branch()
+        # What the program has built by its own transitions is there beside what these build anew.
+        builds = transition in BUILDING and not entity.node.state.changes_own_state
+        mark = None if builds else machine.store.open_branch()
         call = Call(entity.place, _callback_arguments(entity))
         for option in options_of(callback):
             if not is_unfit(machine, entity, option):

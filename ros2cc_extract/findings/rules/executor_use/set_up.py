@@ -70,7 +70,8 @@ LOCK_KEPT = Rule(
     'some path without doing so. The next callback that takes the lock waits forever, and keeps '
     'its thread and its group.',
     why='Only `release()` releases a `threading.Lock`. All paths through the function are '
-    'checked, except those of exceptions. Lock classes of the program, with methods such as '
+    'checked; of exceptions only those that the function raises itself and a caller catches. '
+    'Lock classes of the program, with methods such as '
     '`acquire_read` and `release_read`, are checked too. A callback that waits for a lock '
     'releases nothing. Sources: Python, `threading`; rclpy 7.1.6 and 9.1.2, `executors.py` '
     '(`_make_handler`).',

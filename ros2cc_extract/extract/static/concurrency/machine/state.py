@@ -47,6 +47,7 @@ class ActivityState(Doer):
     :param runners: the threads or futures that stand for it; a wait on one is a wait for its end.
     :param starts: what starts it.
     :param endless: its loop that nothing ends, the end of rclpy included.
+    :param until_shutdown: its loop that only the end of rclpy ends.
     :param again: where it starts itself anew in each run, on every branch.
     :param is_daemon: the same; ``None`` where that is not known.
     :param spins: how many spins the set-up has called before its start.
@@ -77,6 +78,7 @@ class ActivityState(Doer):
     is_daemon: bool | None = False
     loops: bool = False
     endless: Place | None = None
+    until_shutdown: Place | None = None
     again: Place | None = None
     spins: int = 0
     ends_first: bool = False
@@ -149,6 +151,7 @@ class OutsideWait:
     :param is_late: something has been spun before.
     :param over: what is over by then, ``path`` the undecided branches it stands in.
     :param begun: how many spins there were by then; ``None`` where their order is not known.
+    :param is_called: the program itself does so, and not a function without a known caller.
     """
 
     call: str
@@ -161,6 +164,7 @@ class OutsideWait:
     path: Path = ()
     begun: int | None = None
     names: frozenset[str] = frozenset()
+    is_called: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,6 +229,7 @@ class ConcurrentWorld(World):
     :param given: objects that were handed to code which is not followed, with the reason.
     :param kept_in: the attribute that an object others may wait on was stored in last, and
         ``met_meanwhile`` what such attributes held while the set-up waited for it.
+    :param caught_raises: lines and columns, by file, of ``raise`` that some caller catches.
     :param left_callbacks: of futures that were not complete, see ``done_callbacks.py``; and
         ``completed`` the identities of those futures that code completes.
     :param activities: all of them, in the order of their start.
@@ -333,6 +338,7 @@ class ConcurrentWorld(World):
     main_takes: list[tuple[str, Place, int]] = field(default_factory=list)
     interruptible: set[int] = field(default_factory=set)
     kept_in: dict[Value, tuple[Heaped, str]] = field(default_factory=dict)
+    caught_raises: dict[str, set[tuple[int, int]]] = field(default_factory=dict)
     met_meanwhile: dict[tuple[Heaped, str], dict[object, Instance]] = field(default_factory=dict)
     left_callbacks: list[Any] = field(default_factory=list)
     completed: set[int] = field(default_factory=set)

@@ -34,7 +34,7 @@ from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
     unknown_wait,
     wait_of_one,
 )
-from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_endless, minds_nothing
+from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_endless, kept_by
 from ros2cc_extract.extract.static.python.branching.parameter_branches import only_if
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState, PlainState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
@@ -78,8 +78,7 @@ class Waits(ConcurrentMachine):
             state = world.activity
             assert state is not None
             state.loops = True
-            if minds_nothing(node):
-                state.endless = place
+            state.endless, state.until_shutdown = kept_by(node, place)
 
     def note_blocking(
         self, name: str, on: Value | None, seconds: Value | None, place: Place

@@ -156,7 +156,8 @@ def note_join(world: ConcurrentWorld, thread: Value, place: Place) -> None:
     if isinstance(thread, Instance) and world.is_program and is_set_up and not world.second_pass:
         is_late = world.after_spin or bool(world.spins_begun)
         wait = OutsideWait(JOIN, thread, place, world.in_thread, (), is_late, tuple(world.over))
-        world.outside.append(replace(wait, path=world.path))
+        is_called = world.when is When.START
+        world.outside.append(replace(wait, path=world.path, is_called=is_called))
 
 
 def note_over(world: ConcurrentWorld, what: Value | None) -> None:

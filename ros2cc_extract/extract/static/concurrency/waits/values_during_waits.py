@@ -1,5 +1,5 @@
 """
-What callbacks meet in attributes while the set-up waits, and what it replaces afterwards.
+What callbacks meet in attributes while the set-up waits or spins, and what it replaces afterwards.
 
 ``main`` waits for ``self.observed``, puts a new future there, and waits for that one. Callbacks
 are followed when all of ``main`` has been, but they run while it waits, and find there what it
@@ -19,6 +19,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     choice,
     options_of,
 )
+from ros2cc_extract.spec.model import When
 
 
 def note_kept(world: ConcurrentWorld, owner: Heaped, name: str, value: Value) -> None:
@@ -38,9 +39,19 @@ def note_met(world: ConcurrentWorld, thing: Instance | None) -> None:
         known.setdefault((thing.cls, thing.place), thing)
 
 
+def note_replaced(world: ConcurrentWorld, owner: Value, name: str, old: Value) -> None:
+    """The set-up, which has spun, puts something else there: callbacks have met ``old``."""
+    is_late = world.when is When.START and world.has_let_others_run and not world.in_thread
+    if is_late and world.effects is None and isinstance(owner, Instance):
+        for each in options_of(old):
+            if isinstance(each, Instance):
+                known = world.met_meanwhile.setdefault((owner, name), {})
+                known.setdefault((each.cls, each.place), each)
+
+
 def show_to_callbacks(world: ConcurrentWorld, store: Store) -> None:
     """Callbacks are followed now: they may find what was there while the set-up waited."""
     for (owner, name), met in world.met_meanwhile.items():
         held = owner.slots.get(name)
         if isinstance(held, Value):
-            store.write(owner, name, choice([held, *met.values()]))
+            store.write(owner, name, choice([*met.values(), held]))

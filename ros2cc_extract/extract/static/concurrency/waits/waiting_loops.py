@@ -6,6 +6,7 @@ import ast
 from collections.abc import Sequence
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import WORKING_LOOP
 from ros2cc_extract.spec.model import ActivityKind
 
@@ -124,6 +125,13 @@ def minds_nothing(loop: ast.While) -> bool:
     called = (_called_name(part) for part in ast.walk(loop) if isinstance(part, ast.Call))
     is_plain = not any(isinstance(part, (ast.Raise, ast.Await)) for part in ast.walk(loop))
     return _called_name(loop.test) != 'ok' and is_plain and _HARMLESS.issuperset(called)
+
+
+def kept_by(loop: ast.While, place: Place) -> tuple[Place | None, Place | None]:
+    """What keeps a thread in it: the loop that not even the end of rclpy ends, or all but that."""
+    raises = any(isinstance(part, ast.Raise) for part in ast.walk(loop))
+    asks = _called_name(loop.test) == 'ok' and not raises
+    return place if minds_nothing(loop) else None, place if asks else None
 
 
 def call_of_loop(loop: ast.While, call: str, activity: ActivityState | None) -> str:

@@ -114,6 +114,7 @@ class Assignments(Machine):
         old = getattr(owner, 'slots', {}).get(name)
         if old is not None:
             self.note_attribute(owner, name, AccessKind.WRITE, place)
+            self.note_replaced(owner, name, old)
         if isinstance(owner, (Instance, Module, Function)) or hasattr(owner, 'mro'):
             self._note_same_unknown(old, value)
             new = value if is_sure or old is None else choice([old, value])

@@ -35,8 +35,13 @@ Followed = TypeVar('Followed', bound=Doer)
 
 
 def note_met(world: World, owner: Heaped, name: str, held: Value | None) -> None:
-    """The running callback reads ``owner.name``, which others assign."""
-    if _objects(held):
+    """
+    The running callback reads ``owner.name``, which others assign.
+
+    What it has just made and put there it finds there each time, whatever others assign.
+    """
+    is_own = isinstance(held, Instance) and held.born is not None and held.born is world.effects
+    if _objects(held) and not is_own:
         note_found(world, owner, name, held)
 
 

@@ -35,6 +35,9 @@ class Observer:
     def note_attribute(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
         """An attribute is touched."""
 
+    def note_replaced(self, owner: Value, name: str, old: Value) -> None:
+        """An attribute gets another value than ``old``."""
+
     def note_held(self, owner: Value, name: str, value: Value) -> None:
         """An attribute has got a value."""
 

@@ -113,8 +113,9 @@ class EffectLog:
 
 
 def way_of(block: Blocking) -> object:
-    """Equal for one wait, however often it is met."""
-    return block.call, block.source, block.chain
+    """Equal for one wait, however often it is met; one for another object is another wait."""
+    number = getattr(block.resource, 'number', None)
+    return block.call, block.source, block.chain, number
 
 
 class Doer:

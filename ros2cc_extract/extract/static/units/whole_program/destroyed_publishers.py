@@ -20,11 +20,16 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     End,
     EntityState,
     GroupState,
+    NodeEnd,
     RosWorld,
 )
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Const, Instance
+from ros2cc_extract.extract.static.units.whole_program.threads_until_shutdown import (
+    loops_around,
+    spins_end_by_themselves,
+)
 from ros2cc_extract.spec.model import ActivityKind, GroupType
 
 _Doer = EntityState | ActivityState
@@ -37,6 +42,31 @@ def published_meanwhile(end: End, publisher: Instance, world: RosWorld) -> Itera
         if is_of_it and _may_meet(end, use):
             yield _diagnostic(end, use, publisher)
             return
+
+
+def used_behind_the_node(end: NodeEnd, world: RosWorld) -> Iterator[Diagnostic]:
+    """Report a thread that may still publish when the main program destroys its node."""
+    if not spins_end_by_themselves(world):
+        return
+    for use in world.ends:
+        doer = use.doer
+        if use.kind != PUBLISHED or not isinstance(doer, ActivityState):
+            continue
+        is_over = any(id(runner) in end.over for runner in doer.runners)
+        is_thread = doer.kind is ActivityKind.THREAD and not is_over
+        if is_thread and _is_of(use, end.node) and _goes_on(use, doer, world):
+            yield _behind_the_node(end, use)
+            return
+
+
+def _is_of(use: End, node: object) -> bool:
+    state = use.what.state if isinstance(use.what, Instance) else None
+    return isinstance(state, PlainState) and state.of is node
+
+
+def _goes_on(use: End, thread: ActivityState, world: RosWorld) -> bool:
+    """Whether the thread publishes there again and again."""
+    return thread.loops or any(True for _ in loops_around(use.place, world))
 
 
 def _may_meet(end: End, use: End) -> bool:
@@ -86,6 +116,17 @@ def _may_overlap(one: EntityState, other: EntityState) -> bool:
     is_known = all(isinstance(g, GroupState) and g.unresolved is None for g in groups)
     is_shut = one.group is other.group and groups[0].type is GroupType.EXCLUSIVE
     return is_known and executors[0].state.threads != 1 and not is_shut
+
+
+def _behind_the_node(end: NodeEnd, use: End) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='served-no-more',
+        place=end.place,
+        message=f'the node is destroyed while a thread may still publish by it ({use.place}): '
+        'that raises InvalidHandle there',
+        help='end the thread and join it first',
+    )
 
 
 def _diagnostic(end: End, use: End, publisher: Instance) -> Diagnostic:

@@ -46,6 +46,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.extract.static.units.whole_program.destroyed_publishers import (
     published_meanwhile,
+    used_behind_the_node,
 )
 from ros2cc_extract.extract.static.units.whole_program.threads_in_turn import go_in_turn
 from ros2cc_extract.spec.effects import Blocking
@@ -59,7 +60,8 @@ _GOING = frozenset({'exit', '_exit', 'quit', 'shutdown', 'try_shutdown'})
 def note_ends(world: RosWorld) -> None:
     """Report, after all was followed, what is no longer served."""
     found = (diagnostic for end in world.ends for diagnostic in _diagnostics(end, world))
-    world.diagnostics.extend(dict.fromkeys(found))
+    behind = (each for end in world.node_ends for each in used_behind_the_node(end, world))
+    world.diagnostics.extend(dict.fromkeys((*found, *behind)))
 
 
 def _diagnostics(end: End, world: RosWorld) -> Iterator[Diagnostic]:

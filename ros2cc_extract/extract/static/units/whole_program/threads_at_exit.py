@@ -23,6 +23,10 @@ from ros2cc_extract.extract.static.units.whole_program.joined_threads import (
     comes_back,
     why_for_ever,
 )
+from ros2cc_extract.extract.static.units.whole_program.threads_until_shutdown import (
+    is_shut_down,
+    runs_on,
+)
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Blocking
 from ros2cc_extract.spec.model import ActivityKind
@@ -48,6 +52,10 @@ def kept_at_exit(world: RosWorld, spun_beside: Serving) -> Iterator[Diagnostic]:
                 continue
             if state.endless is not None:
                 yield _endless(state, state.endless)
+                break
+            loop = None if is_shut_down(world.over) else runs_on(state, world)
+            if loop is not None:
+                yield _until_shutdown(state, loop)
                 break
             exit_wait = OutsideWait(
                 JOIN, runner, state.place, in_thread=False, is_late=True, over=tuple(world.over)
@@ -121,6 +129,17 @@ def _endless(state: ActivityState, loop: Place) -> Diagnostic:
         message=f'the program ends only when {_who(state)} has ended; which runs a loop '
         f'({loop}) that nothing ends: the program never exits',
         help=f'ask for rclpy.ok() or a flag in the loop; or {_daemon(state)}',
+    )
+
+
+def _until_shutdown(state: ActivityState, loop: Place) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='nobody-spins',
+        place=state.place,
+        message=f'the program ends only when {_who(state)} has ended; which runs while rclpy.ok() '
+        f'({loop}), and nothing shuts rclpy down: the program never exits',
+        help=f'call rclpy.shutdown() at the end of the program; or {_daemon(state)}',
     )
 
 

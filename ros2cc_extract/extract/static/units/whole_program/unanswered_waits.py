@@ -29,6 +29,9 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Effect
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value, options_of
 from ros2cc_extract.extract.static.units.whole_program.joined_threads import is_over, never_joined
 from ros2cc_extract.extract.static.units.whole_program.threads_at_exit import kept_at_exit
+from ros2cc_extract.extract.static.units.whole_program.threads_until_shutdown import (
+    joined_while_ok,
+)
 from ros2cc_extract.spec.client_server_pairs import SERVER_KINDS
 
 
@@ -68,7 +71,8 @@ def _unended(wait: OutsideWait, thing: Instance, world: RosWorld) -> Iterator[Di
     """Nothing completes a future, or only callbacks that are not served meanwhile end the wait."""
     spun = (*wait.spun, *spun_beside(wait, world))
     if wait.call == JOIN:
-        yield from never_joined(wait, world, spun)
+        found = tuple(never_joined(wait, world, spun))
+        yield from found or joined_while_ok(wait, world)
         return
     name = thing.hint or thing.class_name
     words = frozenset({Word.PUT if wait.call == 'Queue.get' else Word.SET})

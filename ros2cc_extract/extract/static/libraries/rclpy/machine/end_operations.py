@@ -13,11 +13,13 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     End,
     EntityState,
     ExecutorState,
+    NodeEnd,
 )
 from ros2cc_extract.extract.static.python.machine.world import RECENT
 from ros2cc_extract.extract.static.python.values.exclusive_paths import is_behind
 from ros2cc_extract.extract.static.python.values.values import Instance, Mystery, Value, options_of
 from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.model import When
 
 SHUTDOWN, SHUTDOWN_EXECUTOR = 'rclpy.shutdown', 'executor.shutdown'
 DESTROY_NODE, REMOVE_NODE, DESTROY = 'destroy_node', 'remove_node', 'destroy'
@@ -80,6 +82,16 @@ def note_end(
         world.ends.append(
             End(kind, what, doer, place, text, behind, world.held, over, joins, is_limited)
         )
+
+
+def note_node_ended(machine: RosMachine, node: Instance, place: Place) -> None:
+    """A node is destroyed, by a callback, a thread, or the main program."""
+    world = machine.world
+    note_end(machine, DESTROY_NODE, node, place)
+    is_main = world.effects is None and world.activity is None and world.when is When.START
+    if is_main and not world.in_thread and not world.second_pass:
+        ended = {id(over.what) for over in world.over} | {id(j.thread) for j in world.timed_joins}
+        world.node_ends.append(NodeEnd(node, place, frozenset(ended)))
 
 
 def note_raised(machine: RosMachine, error: ast.expr, place: Place) -> None:

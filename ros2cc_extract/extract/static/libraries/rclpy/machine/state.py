@@ -322,6 +322,19 @@ class End:
 
 
 @dataclass(frozen=True, eq=False)
+class NodeEnd:
+    """
+    The main program destroys a node.
+
+    :param over: the threads that have ended, as far as it has waited for them, by identity.
+    """
+
+    node: Instance
+    place: Place
+    over: frozenset[int]
+
+
+@dataclass(frozen=True, eq=False)
 class MessageWait:
     """
     A message of ``node`` is waited for.
@@ -362,6 +375,7 @@ class RosWorld(ConcurrentWorld):
     inside_spins: list[InsideSpin] = field(default_factory=list)
     message_waits: list[MessageWait] = field(default_factory=list)
     ends: list[End] = field(default_factory=list)
+    node_ends: list[NodeEnd] = field(default_factory=list)
     context: Instance | None = None
     executors: list[Instance] = field(default_factory=list)
     ghosts: dict[str, Instance] = field(default_factory=dict)

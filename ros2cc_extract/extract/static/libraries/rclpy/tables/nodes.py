@@ -14,10 +14,10 @@ from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications impor
 from ros2cc_extract.extract.static.libraries.rclpy.machine.assumptions import AT_RUN_TIME
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import (
     DESTROY,
-    DESTROY_NODE,
     DESTROY_PUBLISHER,
     OF_RATE,
     note_end,
+    note_node_ended,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.made_entities import (
@@ -341,7 +341,7 @@ def _destroy_publisher(machine: RosMachine, receiver: Value, call: Call) -> Valu
 
 def _destroy_node(machine: RosMachine, receiver: Value, call: Call) -> Value:
     if isinstance(receiver, Instance):
-        note_end(machine, DESTROY_NODE, receiver, call.place)
+        note_node_ended(machine, receiver, call.place)
     return NONE
 
 

@@ -2,7 +2,9 @@
 The end of rclpy: ``rclpy.shutdown``, contexts, and the functions that run when one ends.
 
 Source: rclpy 7.1.6 and 9.1.2, ``context.py`` (``shutdown`` runs the functions of ``on_shutdown``
-in its caller, in their order), ``__init__.py`` (``shutdown`` is that of the default context).
+in its caller, in their order; so does the end of a ``with`` over it), ``__init__.py``
+(``shutdown`` is that of the default context); 9.1.2, ``__init__.py`` (``with rclpy.init():``
+shuts down at its end).
 """
 
 from __future__ import annotations
@@ -24,7 +26,14 @@ from ros2cc_extract.extract.static.python.values.values import Library as Name
 from ros2cc_extract.source_locations import Place
 
 CONTEXT = 'rclpy.context.Context'
+_INIT = 'rclpy.InitContextManager'
 _HOOKS = '__on_shutdown__'
+
+
+class _ContextState(PlainState):
+    """What ``with`` does with a context is a method of it."""
+
+    is_block = False
 
 
 def default_context(machine: RosMachine) -> Instance:
@@ -32,7 +41,7 @@ def default_context(machine: RosMachine) -> Instance:
     world = machine.world
     if world.context is None:
         world.context = Instance(Name(CONTEXT), Place(''))
-        world.context.state = PlainState('context')
+        world.context.state = _ContextState('context')
     return world.context
 
 
@@ -67,18 +76,36 @@ def _shut_down(machine: RosMachine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
+def _entered(machine: RosMachine, receiver: Value, call: Call) -> Value:
+    return receiver
+
+
+def _left(machine: RosMachine, receiver: Value, call: Call) -> Value:
+    """The end of ``with rclpy.init():`` or of a ``with`` over a context."""
+    is_context = isinstance(receiver, Instance) and receiver.cls == Name(CONTEXT)
+    return _shut_down(machine, receiver if is_context else NONE, Call(call.place))
+
+
+def _init(machine: RosMachine, receiver: Value, call: Call) -> Value:
+    return Instance(Name(_INIT), call.place)
+
+
 TABLE = Library(
     classes={
         CONTEXT: LibraryClass(
-            state=lambda machine, instance: PlainState('context', place=instance.place),
+            state=lambda machine, instance: _ContextState('context', place=instance.place),
             methods={
                 'on_shutdown': _on_shutdown,
                 'shutdown': _shut_down,
                 'try_shutdown': _shut_down,
+                '__enter__': _entered,
+                '__exit__': _left,
             },
         ),
+        _INIT: LibraryClass(methods={'__enter__': _entered, '__exit__': _left}),
     },
     functions={
+        'rclpy.init': _init,
         'rclpy.shutdown': _shut_down,
         'rclpy.try_shutdown': _shut_down,
         'rclpy.get_default_context': lambda machine, receiver, call: default_context(machine),
