@@ -317,10 +317,11 @@ def _leads_to(finding: Finding, unit: Spec) -> bool:
 
 def _names(finding: Finding, unit: Spec, named: Spec) -> bool:
     """Whether it is about what ``unit`` runs; a note, of nothing that the other has as well."""
-    threads = (each for each in unit.activities if each.kind is not ActivityKind.MAIN)
-    names = {each.name for each in (*unit.callbacks, *threads)}
+    names = {each.name for each in unit.callbacks}
+    names |= {each.name for each in unit.activities if each.kind is not ActivityKind.MAIN}
     if finding.severity is Severity.NOTE:
-        names -= {each.name for each in (*named.callbacks, *named.activities)}
+        names -= {each.name for each in named.callbacks}
+        names -= {each.name for each in named.activities}
     return not names.isdisjoint(finding.subjects)
 
 

@@ -312,7 +312,7 @@ class Effects(Waits):
 
     def _note_variable(self, target: ast.Name, frame: Frame, kind: AccessKind) -> None:
         """A local name stands for what an attribute holds, or is shared with inner functions."""
-        place, owner = frame.place(target), _owner_of(target.id, frame)
+        place, owner = frame.place(target), closure_cells.owner_of(target.id, frame)
         is_known = self._note_given(target, target.id, frame, kind)
         if owner is not None and not is_known:
             self.note_cell(owner, target.id, kind, place)
@@ -332,7 +332,7 @@ class Effects(Waits):
         return bool(homes)
 
     def _is_global(self, name: str, frame: Frame) -> bool:
-        return _owner_of(name, frame) is None and name in frame.module.slots
+        return closure_cells.owner_of(name, frame) is None and name in frame.module.slots
 
     def _is_behaviour(
         self, owner: Instance | Class, name: str, kind: AccessKind, place: Place
@@ -487,16 +487,6 @@ def _note_closer(accesses: list[Access], access: Access) -> None:
     if plain != access and plain in accesses[-RECENT:]:
         accesses.remove(plain)
     note_once(accesses, access)
-
-
-def _owner_of(name: str, frame: Frame) -> Scope | None:
-    """The function whose variable the name means."""
-    scope: Scope | None = frame.scope
-    while scope is not None:
-        if name in scope.slots and name not in scope.global_names:
-            return scope
-        scope = scope.parent
-    return None
 
 
 def _is_semaphore(value: Instance) -> bool:
