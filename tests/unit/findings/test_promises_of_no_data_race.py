@@ -19,7 +19,7 @@ from ros2cc_extract.verify.search.options import Options
 from ros2cc_extract.verify.unit import verify_unit
 
 PROGRAM = """\
-import signal, threading, time
+import files, signal, threading, time
 import rclpy
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
@@ -136,6 +136,14 @@ def test_what_a_library_calls_of_a_class_that_is_part_of_it_may_run_at_any_time(
     assert 'Changed.on_modified may run' in races(made=made, on_a=CHANGE, once=CHANGE)
     locked = under('lock', CHANGE)
     assert races(made=made, on_a=locked, once=locked) == ''
+
+
+def test_what_such_a_class_does_with_the_node_hides_none_of_its_entities() -> None:
+    text = PROGRAM.format(
+        made='self.changed = Changed(self)', on_a='pass', on_signal='pass', once='pass', spin=SPIN
+    )
+    [unit] = scan_text(text.replace('self.node.once()', 'files.show(self.node)')).units
+    assert unit.unresolved == ()
 
 
 TWO = """\

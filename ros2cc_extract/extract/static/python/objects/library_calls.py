@@ -107,7 +107,8 @@ class LibraryCalls(Machine):
         for argument in (*call.args, *call.keywords.values()):
             for option in options_of(argument):
                 if isinstance(option, Instance) and isinstance(option.state, LibraryState):
-                    option.state.note_passed(name, call.place)
+                    if not self.world.only_data:
+                        option.state.note_passed(name, call.place)
                 elif isinstance(option, Collection) and not self.model.makes_data(name):
                     self.world.handed_over.setdefault(option, why)
 
