@@ -15,7 +15,10 @@ from ros2cc_extract.findings.answers_of_others import answers_assumed
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.base.wording import called
-from ros2cc_extract.findings.races.handed_functions import races_with_others
+from ros2cc_extract.findings.races.handed_functions import (
+    races_with_others,
+    races_with_threads_left,
+)
 from ros2cc_extract.findings.rules.deadlocks.never_ends import RULE as NEVER_ENDS
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
@@ -24,7 +27,7 @@ from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, worker
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import OUTSIDE, PAUSES, TIME, WORKING_LOOP, Needs
-from ros2cc_extract.spec.model import GroupType, Spec
+from ros2cc_extract.spec.model import ActivityKind, GroupType, Spec
 from ros2cc_extract.verify.results.load import LoadKind, Serving, demands_of, load_of
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 
@@ -172,7 +175,8 @@ class _Unit:
         """Give what keeps a promise from being proven, what concerns all promises first."""
         yield from self._gaps()
         for finding in self.near:
-            if _breaks(finding, promise):
+            is_noted = promise is Promise.RACES and finding.code in _CODES[promise]
+            if is_noted or _breaks(finding, promise):
                 yield f'{finding.code} at {_at(finding)}, which may concern it'
         for finding in own:
             if finding.code in _CODES[promise]:
@@ -186,6 +190,7 @@ class _Unit:
         if promise is Promise.RACES:
             yield from _copies(self.unit)
             yield from races_with_others(self.unit)
+            yield from races_with_threads_left(self.unit)
         if promise is Promise.SETTINGS:
             yield from self._without_effect()
 
@@ -336,7 +341,7 @@ def about(
                 near.append(finding)
         elif finding.unit == unit.name:
             own.append(finding)
-        elif unit.entry is not None and named.entry == unit.entry and _names(finding, unit):
+        elif unit.entry is not None and named.entry == unit.entry and _names(finding, unit, named):
             near.append(finding)
     return own, near
 
@@ -346,8 +351,14 @@ def _leads_to(finding: Finding, unit: Spec) -> bool:
     return any(remark.place.file in unit.sources for remark in finding.related)
 
 
-def _names(finding: Finding, unit: Spec) -> bool:
-    return not {each.name for each in unit.callbacks}.isdisjoint(finding.subjects)
+def _names(finding: Finding, unit: Spec, named: Spec) -> bool:
+    """Whether it is about what ``unit`` runs; a note, of nothing that the other has as well."""
+    names = {each.name for each in unit.callbacks}
+    names |= {each.name for each in unit.activities if each.kind is not ActivityKind.MAIN}
+    if finding.severity is Severity.NOTE:
+        names -= {each.name for each in named.callbacks}
+        names -= {each.name for each in named.activities}
+    return not names.isdisjoint(finding.subjects)
 
 
 def _at(finding: Finding) -> str:

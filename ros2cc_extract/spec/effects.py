@@ -187,6 +187,7 @@ BEGINS = '…'
 
 FLAG = ' (flag)'
 ADDS, TAKES, TAKES_ANY, EMPTIES = 'adds', 'takes', 'takes any', 'empties'
+TAKES_NEXT, FILLS = 'takes next', 'fills'
 COPIED, BY_INDEX = 'a copy', 'by index'
 """How a collection is gone over without asking it for the next item each time."""
 CANCELS = 'cancel'
@@ -214,7 +215,8 @@ class Access:
     :param keeps_size: true for ``d[k] = v`` where the set-up has put in ``k``.
     :param moves: ``adds`` for one that puts in an item and takes none out, ``takes`` for one that
         takes a certain item out, ``takes any`` for one that takes out the next, and fails uncaught
-        where there is none, ``empties`` for one that takes out all.
+        where there is none, ``empties`` for one that takes out all. Of a queue, ``takes next`` for
+        one that fails or waits where there is none, ``fills`` where there is no room.
     :param iterates: class of the collection, where a loop goes over it; ``COPIED`` where all items
         are taken at once (``list(d)``), ``BY_INDEX`` where it counts through the indices.
     :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``;

@@ -307,6 +307,7 @@ ACTIVITY = record(
                 ('conditional', 'conditional', FLAG),
                 ('daemon', 'daemon', FLAG),
                 ('loops', 'loops', FLAG),
+                ('on_loop', 'on_loop', FLAG),
                 ('ends_first', 'ends_first', FLAG),
             ),
         ),

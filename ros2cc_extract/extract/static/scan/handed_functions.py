@@ -71,7 +71,7 @@ def _follow(machine: RosInterpreter, state: ActivityState) -> None:
     def follow() -> None:
         world.activity, world.effects, world.current = state, state.effects, None
         world.when, world.count = When.CALLBACK, 1
-        world.again = world.second_pass = True
+        world.again = world.second_pass = world.only_data = True
         world.after_spin = False
         world.asked, world.ready = set(), frozenset()
         mark = machine.store.open_branch()
@@ -80,6 +80,7 @@ def _follow(machine: RosInterpreter, state: ActivityState) -> None:
         machine.store.close_branch(mark)
 
     guarded(machine, follow, state.place)
+    world.only_data = False
     _put_back(kept)
 
 

@@ -143,6 +143,7 @@ def activity(
         count=state.count,
         conditional=_is_conditional(state),
         daemon=state.daemon,
+        on_loop=state.on_loop,
         loops=state.loops,
         ends_first=state.ends_first,
         unresolved=facts.unresolved,

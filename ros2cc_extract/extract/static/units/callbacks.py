@@ -105,7 +105,9 @@ class UnitBuilder:
         executor_name = self._taken.take(self._unit.executor_label)
         executor = executor_of(self._unit, executor_name, threads, entry, self._world)
         with_waits, activities, set_up = self._with_waits(callbacks, entities, executor)
-        handed = handed_to_others(self._world, self._nodes, self._node_names, self._taken)
+        handed = handed_to_others(
+            self._world, self._nodes, self._node_names, self._taken, executor
+        )
         return Spec(
             name=name,
             callbacks=with_waits,

@@ -246,6 +246,7 @@ class ConcurrentWorld(World):
     :param queues: what is put into queues, see ``queue_items.py``.
     :param homes: the attribute that first held a collection, see ``collection_aliases.py``.
     :param objects: the attribute that holds an object of unknown kind for good, by the object.
+    :param members: what a field of such an object is called, by what is in it.
     :param locks: the locks that were taken, by the name they are stored under.
     :param main_spins: how many spins the set-up has called in its own thread, behind which no
         callback runs, and how many it had ``before_loop``, the outermost of those loops.
@@ -311,8 +312,9 @@ class ConcurrentWorld(World):
     still_down: frozenset[str] = frozenset()
     readers: dict[Place, list[EffectLog | None]] = field(default_factory=dict)
     queues: dict[int, Any] = field(default_factory=dict)
-    homes: dict[Value, tuple[Instance, str]] = field(default_factory=dict)
+    homes: dict[Value, tuple[Value, str]] = field(default_factory=dict)
     objects: dict[Value, str] = field(default_factory=dict)
+    members: dict[Value, str] = field(default_factory=dict)
     locks: dict[str, list[Instance]] = field(default_factory=dict)
     takes: Counter[str] = field(default_factory=Counter)
     loops_at: dict[str, int] = field(default_factory=dict)

@@ -12,7 +12,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import LoopRun, LoopTouch
 from ros2cc_extract.extract.static.libraries.standard.futures import (
     LOOP,
@@ -33,18 +35,24 @@ from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_LOOP
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
+    Bound,
     Call,
     Const,
+    Coroutine,
+    Function,
     Handler,
     Instance,
     Native,
+    Partial,
     Value,
+    options_of,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import AWAIT
-from ros2cc_extract.spec.model import When
+from ros2cc_extract.spec.model import ActivityKind, When
 
+_OWN_CODE = (Function, Bound, Partial)
 _ASKED = -1
 """Among the identities of ``World.asked``: whether a loop runs."""
 
@@ -115,6 +123,12 @@ def make_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     if task is not None:
         return task
     effects, held, holds = world.effects, world.held, world.holds
+    coroutine = call.args[0] if call.args else NONE
+    if effects is not None and _is_task(world.activity) and isinstance(coroutine, Coroutine):
+        given = coroutine.call
+        inner = Call(call.place, given.args, given.keywords, given.more)
+        begin(machine, ActivityKind.THREAD, coroutine.function, inner, on_loop=True)
+        return machine.mystery('a task of asyncio', call.place, 'asyncio task')
     if effects is None or (world.activity is not None and world.when is When.START):
         return _run_coroutine(machine, receiver, call)
     world.effects, world.held = None, ()
@@ -177,11 +191,36 @@ def _sleeping(delay: Value | None) -> Handler:
 def _call_soon(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """It wakes no loop that waits, and is for the thread of the loop alone."""
     _note_touch(machine, receiver, 'call_soon', call)
-    return _call_soon_threadsafe(machine, receiver, call)
+    return _by_this_thread(machine, call)
 
 
 def _call_soon_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Let the loop call it; the code that hands it over need not wait for that."""
+    """
+    Let the loop call it; the code that hands it over need not wait for that.
+
+    What the program itself does then is done beside that code, unless a loop runs both.
+    """
+    target = call.args[0] if call.args else NONE
+    is_own = any(isinstance(each, _OWN_CODE) for each in options_of(target))
+    if not is_own or _is_on_loop(machine):
+        return _by_this_thread(machine, call)
+    turns = receiver.slots.get(LOOP) if isinstance(receiver, Instance) else None
+    inner = Call(call.place, call.args[1:])
+    with _by_loop(machine):
+        begin(machine, ActivityKind.THREAD, target, inner, turns=turns, on_loop=True)
+    return NONE
+
+
+def _is_on_loop(machine: ConcurrentMachine) -> bool:
+    world = machine.world
+    return _is_task(world.activity) or machine.runs_on_loop or world.is_on_loop
+
+
+def _is_task(activity: ActivityState | None) -> bool:
+    return activity is not None and activity.on_loop
+
+
+def _by_this_thread(machine: ConcurrentMachine, call: Call) -> Value:
     if call.args:
         with _by_loop(machine):
             machine.call(call.args[0], Call(call.place, call.args[1:]))
