@@ -77,6 +77,7 @@ class Waker:
         then; ``None`` where its end, or what happens at its end, ends the wait.
     :param conditional: true where a branch may skip the operation.
     :param held: locks held at that operation, as of a ``Blocking``.
+    :param passed: locks that it has surely had to take before.
     """
 
     by: str
@@ -84,6 +85,7 @@ class Waker:
     after: int | None = None
     conditional: bool = False
     held: tuple[str, ...] = ()
+    passed: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -77,6 +77,7 @@ WAKER = record(
                 ('after', 'after', optional(COUNT)),
                 ('conditional', 'conditional', FLAG),
                 ('held', 'held', listing(TEXT)),
+                ('passed', 'passed', listing(TEXT)),
                 _SOURCE,
             ),
         ),

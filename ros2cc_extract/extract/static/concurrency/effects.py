@@ -423,6 +423,8 @@ class Effects(Waits):
                 lost_notifications.begin_hold(self.world, name)
                 if self.world.effects is not None:
                     note_once(self.world.effects.locks, act)
+                    if self.world.path == self.world.callback_path and not may_fail:
+                        self.world.effects.taken[name] = None
                 self._note_in_main(name, place)
 
     def _note_in_main(self, name: str, place: Place) -> None:

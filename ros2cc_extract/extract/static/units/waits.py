@@ -435,6 +435,7 @@ class UnitWaits(DataWriters):
             after=after,
             conditional=self._may_fail(waking, reference, doer, raw, stays=stays),
             held=waking.held,
+            passed=waking.taken,
         )
 
     def _may_fail(

@@ -28,9 +28,10 @@ NOBODY_SPINS = Rule(
     'it is a warning. Also reported: a join where only a thread that was joined before could end '
     'the wait, or what comes behind the join, or where a lock is held that the thread takes; a '
     'join before rclpy is shut down, or an end without a shutdown, where the thread runs while '
-    '`rclpy.ok()` and the spin has ended by itself; the end of the program where such a thread, or one that never checks whether to '
-    'stop, is not a daemon or works for a pool; and a `threading.Timer` that is not a daemon and '
-    'restarts itself in each run, because a `cancel` while its function runs has no effect.',
+    '`rclpy.ok()` and the spin has ended by itself; the end of the program where such a thread, '
+    'or one that never checks whether to stop, is not a daemon or works for a pool; and a '
+    '`threading.Timer` that is not a daemon and restarts itself in each run, because a `cancel` '
+    'while its function runs has no effect.',
     why='`Client.call` and a loop until `future.done()` do not spin: the executor of the '
     "client's node takes the answer, and that of the server's node takes the request; a timer of "
     'the node ends `Rate.sleep`. Reported only if every spin of the program is known. '
