@@ -120,6 +120,8 @@ class Blocking:
         reads that pipe.
     :param answer_to: the topic of the message on which another process must answer, by a
         subscription, before the wait ends.
+    :param cleared_late: the topics of messages that are sent before an event is cleared, though
+        only what they bring sets it again.
     :param unsent: the topics whose messages end it, if the publishing code of this program
         does not run before.
     :param at_end: of a thread, where the program ends the wait when its spin is over.
@@ -151,6 +153,7 @@ class Blocking:
     assumed: str | None = None
     unread: str | None = None
     answer_to: str | None = None
+    cleared_late: str | None = None
     unsent: str | None = None
     at_end: Place | None = None
     repeats: bool = False

@@ -106,6 +106,7 @@ BLOCKING = record(
                 ('assumed', 'assumed', optional(TEXT)),
                 ('unread', 'unread', optional(TEXT)),
                 ('answer_to', 'answer_to', optional(TEXT)),
+                ('cleared_late', 'cleared_late', optional(TEXT)),
                 ('unsent', 'unsent', optional(TEXT)),
                 ('at_end', 'at_end', _OPTIONAL_PLACE),
                 ('repeats', 'repeats', FLAG),
