@@ -322,12 +322,14 @@ class Effects(Waits):
         self, target: ast.expr, attribute: str, frame: Frame, kind: AccessKind
     ) -> bool:
         """What a name, a property or a getter gives is what an attribute holds; is it known?"""
-        if kind is AccessKind.WRITE or not self.world.homes:
+        if kind is AccessKind.WRITE or not (self.world.homes or self.world.lent):
             return False
         noted, self.world.effects = self.world.effects, None
         held = self.evaluate(target, frame)
         self.world.effects = noted
         homes = collection_aliases.homes_of(self.world, held)
+        if self.world.iterating is not None or kind is AccessKind.UPDATE_IN_PLACE:
+            homes += collection_aliases.lenders_of(self.world, held)
         for home in homes:
             self._note_access(self._seen_at(home), kind, frame.place(target), attribute)
         return bool(homes)

@@ -30,7 +30,9 @@ def note_held(
     """``owner`` holds ``value`` from here on; ``shown`` names the attribute."""
     if not isinstance(value, Collection) or getattr(value, 'kind', '') in _FIXED:
         return
-    if isinstance(owner, Instance) and not is_reassigned(owner, attribute):
+    if isinstance(owner, Instance) and is_reassigned(owner, attribute):
+        world.lent.setdefault(value, (owner, attribute, shown))
+    elif isinstance(owner, Instance):
         world.homes.setdefault(value, (owner, shown))
 
 
@@ -48,6 +50,21 @@ def homes_of(world: ConcurrentWorld, value: Value) -> list[Home]:
     """The same of the collections that a local variable may hold."""
     known = (world.homes.get(v) for v in options_of(value) if isinstance(v, Collection))
     return [home for home in known if home is not None]
+
+
+def lenders_of(world: ConcurrentWorld, value: Value) -> list[Home]:
+    """
+    The attributes that may still hold what a local variable holds, though others are stored there.
+
+    What has been replaced since (``rows, self.rows = self.rows, []``) is shared no longer.
+    """
+    lent = {v: world.lent[v] for v in options_of(value) if v in world.lent}
+    return [
+        (owner, shown)
+        for collection, (owner, attribute, shown) in lent.items()
+        if isinstance(held := owner.slots.get(attribute), Value)  # type: ignore[attr-defined]
+        and any(option is collection for option in options_of(held))
+    ]
 
 
 def object_name(owner: Instance | Class, cls: Class) -> str:

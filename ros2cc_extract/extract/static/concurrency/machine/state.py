@@ -245,6 +245,7 @@ class ConcurrentWorld(World):
     :param readers: what reads the pipes of a child process, by the place where that is made.
     :param queues: what is put into queues, see ``queue_items.py``.
     :param homes: the attribute that first held a collection, see ``collection_aliases.py``.
+    :param lent: the same of attributes that a method stores another one in, with their names.
     :param objects: the attribute that holds an object of unknown kind for good, by the object.
     :param members: what a field of such an object is called, by what is in it.
     :param locks: the locks that were taken, by the name they are stored under.
@@ -313,6 +314,7 @@ class ConcurrentWorld(World):
     readers: dict[Place, list[EffectLog | None]] = field(default_factory=dict)
     queues: dict[int, Any] = field(default_factory=dict)
     homes: dict[Value, tuple[Value, str]] = field(default_factory=dict)
+    lent: dict[Value, tuple[Value, str, str]] = field(default_factory=dict)
     objects: dict[Value, str] = field(default_factory=dict)
     members: dict[Value, str] = field(default_factory=dict)
     locks: dict[str, list[Instance]] = field(default_factory=dict)
