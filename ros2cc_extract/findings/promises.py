@@ -153,8 +153,8 @@ class _Unit:
         last = [
             f'as long as the program gets to {_in_file(place)}, which ends that of {called(doer)}'
             for doer in self._ended_last()
-            for place in (block.at_end for block in doer.blocking)
-            if place is not None
+            for block in doer.blocking
+            if (place := block.at_end) is not None and place != block.source
         ]
         return '; '.join(filter(None, [answers_assumed(self.unit), *alone, *dict.fromkeys(last)]))
 

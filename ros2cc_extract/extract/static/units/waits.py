@@ -361,7 +361,7 @@ class UnitWaits(DataWriters):
             named,
             forgets=forgets(reference, given, doer),
             answer_to=self._answer_to(raw, reference, doer),
-            at_end=ended_last(given, doer, self._world),
+            at_end=ended_last(given, doer, self._world, reference),
             cleared_late=sent_before_clear(reference, given, doer, self._doers),
         )
 

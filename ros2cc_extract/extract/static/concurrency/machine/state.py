@@ -232,6 +232,7 @@ class ConcurrentWorld(World):
     :param given: objects that were handed to code which is not followed, with the reason.
     :param kept_in: the attribute that an object others may wait on was stored in last, and
         ``met_meanwhile`` what such attributes held while the set-up waited for it.
+    :param served: where a daemon thread waits for what nobody else has, by its identity.
     :param caught_raises: lines and columns, by file, of ``raise`` that some caller catches.
     :param left_callbacks: of futures that were not complete, see ``done_callbacks.py``; and
         ``completed`` the identities of those futures that code completes.
@@ -343,6 +344,7 @@ class ConcurrentWorld(World):
     handed_on: list[tuple[ActivityState, str]] = field(default_factory=list)
     main_takes: list[tuple[str, Place, int]] = field(default_factory=list)
     interruptible: set[int] = field(default_factory=set)
+    served: dict[int, Place] = field(default_factory=dict)
     kept_in: dict[Value, tuple[Heaped, str]] = field(default_factory=dict)
     caught_raises: dict[str, set[tuple[int, int]]] = field(default_factory=dict)
     met_meanwhile: dict[tuple[Heaped, str], dict[object, Instance]] = field(default_factory=dict)

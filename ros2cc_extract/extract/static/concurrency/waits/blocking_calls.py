@@ -97,6 +97,8 @@ class Waits(ConcurrentMachine):
         is_unnamed = isinstance(on, Instance) and on.hint is None
         if world.is_set_up_on_loop or (is_unnamed and is_main(world.activity)):
             outside_waits.note_cancelled(world, name, on)
+        if seconds in (None, NONE):
+            outside_waits.note_served(world, name, on, place)
         block, thing = self._block(name, on, seconds, place)
         if effects is None:
             values_during_waits.note_met(world, thing)

@@ -125,6 +125,21 @@ def note_cancelled(world: ConcurrentWorld, name: str, on: Value | None) -> None:
         world.interruptible.add(id(on))
 
 
+def note_served(world: ConcurrentWorld, name: str, on: Value | None, place: Place) -> None:
+    """
+    Remember what a daemon thread waits for while it serves: the end of the program.
+
+    What has no name nobody can set; without a lock held, nothing waits for that thread meanwhile.
+    """
+    doer = world.activity
+    if doer is None or not doer.is_daemon or not isinstance(on, Instance) or on.hint is not None:
+        return
+    is_future = name == AWAIT and is_of_loop(on)
+    is_event = name.removeprefix(f'{AWAIT} ') in ('asyncio.Event.wait', 'Event.wait')
+    if (is_future or is_event) and not world.held:
+        world.served.setdefault(id(on), place)
+
+
 def note_loop(world: ConcurrentWorld, names: set[str], place: Place) -> None:
     """Remember that the set-up looks again and again whether data of ``names`` has changed."""
     is_set_up = world.when is When.START and not world.after_spin and not world.in_thread

@@ -109,10 +109,18 @@ def comes_last(waking: Waking, world: RosWorld) -> bool:
     return waking.by is None and (waking.after_spin or is_behind)
 
 
-def ended_last(given: Sequence[Waking], doer: Doer, world: RosWorld) -> Place | None:
-    """Where the program ends a wait of a thread: its spin is over, and it has not joined that."""
+def ended_last(
+    given: Sequence[Waking], doer: Doer, world: RosWorld, reference: ResourceRef
+) -> Place | None:
+    """
+    Where the program ends a wait of a thread: its spin is over, and it has not joined that.
+
+    Its end alone ends what nobody else can.
+    """
     if not isinstance(doer, ActivityState):
         return None
+    if not given and reference.number in world.served:
+        return world.served[reference.number]
     in_time = (waking for waking in given if not come_behind([waking.ended], doer.runners))
     last = (waking for waking in in_time if comes_last(waking, world))
     return next((waking.place for waking in last), None)
