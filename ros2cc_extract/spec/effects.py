@@ -230,6 +230,7 @@ class Access:
         of one whose new value was computed from what was read of the collection.
     :param rests: true for a write that rests on what was read of it before, by its value or by a
         test, and for the use of an object that was tested before.
+    :param bare: true for the use of an object that each run comes to without any test before.
     :param clears: true where ``None`` is stored; ``lowers`` for another constant that is false.
     :param found: of a write that rests on tests alone, what these have found: ``FOUND_NONE``, or
         ``FOUND_FALSE`` where anything false would do, and ``FOUND_TRUE``; a constant behind
@@ -260,6 +261,7 @@ class Access:
     item: str | None = None
     chosen: bool = False
     rests: bool = False
+    bare: bool = False
     clears: bool = False
     lowers: bool = False
     found: str | None = None

@@ -18,6 +18,7 @@ from ros2cc_extract.findings.races.critical_sections import (
 from ros2cc_extract.findings.races.lifecycle import comes_before
 from ros2cc_extract.findings.races.uses import Use, are_unordered, may_meet
 from ros2cc_extract.spec.effects import Access
+from ros2cc_extract.spec.model import Activity
 from ros2cc_extract.spec.program_order import steps
 
 
@@ -50,6 +51,24 @@ def uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
                     if not keep_apart(kept, write.locks)
                     and are_unordered(Use(user, use), Use(clearer, write))
                 )
+
+
+def bare_uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """
+    Objects that one uses without any test, and a callback sets to ``None`` beside it.
+
+    A thread that works until it is told to stop may have ended by then.
+    """
+    for user, clearer in ((one, other), (other, one)):
+        if isinstance(clearer, Activity) or (isinstance(user, Activity) and not user.loops):
+            continue
+        cleared = writes_of(clearer)
+        for use in (*user.reads, *(write for write in user.writes if write.in_place)):
+            yield from (
+                (Use(user, use), Use(clearer, write))
+                for write in cleared.get(use.name, ())
+                if use.bare and write.clears and may_meet(Use(user, use), Use(clearer, write))
+            )
 
 
 def torn_states(one: Doer, other: Doer, pauses: Doer | None = None) -> Iterator[tuple[Use, Use]]:

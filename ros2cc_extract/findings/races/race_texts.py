@@ -26,8 +26,11 @@ def describe(race: Race) -> str:
     return {
         RaceKind.CHANGED_IN_LOOP: f'{first} iterates over {names}, and {others} may change '
         f'the size of {it} meanwhile: Python raises RuntimeError in the loop',
-        RaceKind.CLEARED_IN_USE: f'{first} tests {names} and then uses {it}, and {others} may set '
-        f'{it} to None in between: then the use raises an exception',
+        RaceKind.CLEARED_IN_USE: f'{first} uses {names} without a test, and {others} may set {it} '
+        'to None before: then the use raises an exception'
+        if race.first.access.bare
+        else f'{first} tests {names} and then uses {it}, and {others} may set {it} to None in '
+        'between: then the use raises an exception',
         RaceKind.TORN: f'{first} {_takes(race)} {names} while {others} may change {it} piece by '
         f'piece: {"the message" if _is_sent(race) else it} is half old and half new',
         RaceKind.EMPTIED: f'{first} iterates over {names} and then empties {it}, and {others} may '

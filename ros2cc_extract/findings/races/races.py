@@ -32,6 +32,7 @@ from ros2cc_extract.findings.races.critical_sections import (
 )
 from ros2cc_extract.findings.races.flag_locks import as_shared, shared_by
 from ros2cc_extract.findings.races.harms import (
+    bare_uses_cleared,
     overwritten,
     torn_messages,
     torn_states,
@@ -269,6 +270,7 @@ def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
     others += [(RaceKind.TAKEN, *pair) for pair in taken_in_between(one, other)]
     others += [(RaceKind.OVERWRITTEN, *pair) for pair in overwritten(one, other)]
     others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(one, other)]
+    others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in bare_uses_cleared(one, other)]
     others += [(RaceKind.TORN, *pair) for pair in torn_messages(one, other)]
     others += [(RaceKind.TORN_STATE, *pair) for pair in torn_states(one, other)]
     for name in sorted(written | {use.access.name for _, use, _ in others}):

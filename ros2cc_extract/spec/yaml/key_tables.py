@@ -139,6 +139,7 @@ ACCESS = record(
                 ('item', 'item', optional(TEXT)),
                 ('chosen', 'chosen', FLAG),
                 ('rests', 'rests', FLAG),
+                ('bare', 'bare', FLAG),
                 ('clears', 'clears', FLAG),
                 ('lowers', 'lowers', FLAG),
                 ('found', 'found', optional(TEXT)),

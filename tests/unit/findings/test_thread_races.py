@@ -319,9 +319,11 @@ def test_a_collection_handed_to_a_thread_is_the_same_one(
     assert _handed_on(*texts, tmp_path) == expected
 
 
-def test_a_collection_that_is_replaced_is_another_one(tmp_path: Path) -> None:
+def test_a_collection_is_the_same_one_until_it_is_replaced(tmp_path: Path) -> None:
     more = 'def reset(self): self.rows = {}'
-    assert _handed_on('self.lines', 'rows', tmp_path, more) == []
+    assert _handed_on('self.lines', 'list(rows)', tmp_path, more) == ['CC301:12 warning']
+    assert _handed_on('list(self.lines)', 'rows', tmp_path, more) == ['CC301:17 warning']
+    assert _handed_on('list(self.lines)', 'list(rows)', tmp_path, more) == []
 
 
 def _handed_on(over: str, local: str, folder: Path, more: str = 'pass') -> list[str]:

@@ -207,6 +207,9 @@ class Effects(Waits):
             item=item,
             chosen=chosen,
             rests=is_used or (rests and not (is_read or (is_stored and is_import))),
+            bare=(is_content or at in reading.used)
+            and not rests
+            and data_kinds.is_bare(self.world),
             compared=is_read and at in reading.compared,
             later=self._is_late(name, is_used=is_used or (is_content and is_tested), kind=kind),
             clears=is_stored and reading.stored == NONE,

@@ -42,7 +42,11 @@ def find(context: Context) -> Iterator[Hit]:
 
 def weighed(race: Race, hit: Hit) -> Hit:
     """A note where nothing is called between the test and the use."""
-    return hit if race.first.access.later else replace(hit, severity=Severity.NOTE)
+    return (
+        hit
+        if race.first.access.later or race.first.access.bare
+        else replace(hit, severity=Severity.NOTE)
+    )
 
 
 def _of_themselves(context: Context) -> Iterator[Use]:
@@ -83,7 +87,8 @@ RULE = Rule(
     'it (`self.goal.cancel()`), and a callback that may run at the same time sets it to None. If '
     'that happens between the test and the use, the use raises AttributeError or TypeError, '
     'which ends the spin. No lock is held around both. If nothing is called between the test and '
-    'the use, it is only a note: an interpreter with a global lock does not switch threads there.',
+    'the use, it is only a note: an interpreter with a global lock does not switch threads there. '
+    'An object that is used without any test may be gone as well.',
     why='Every read of an attribute looks it up again. CPython switches threads at calls and at '
     'the ends of loop iterations (3.12, `Python/bytecodes.c`, `CHECK_EVAL_BREAKER`), and in a '
     'build without the global lock anywhere. The model decides whether two callbacks may '

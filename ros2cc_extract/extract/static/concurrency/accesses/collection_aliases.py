@@ -38,12 +38,12 @@ def note_held(
 
 def home_of(world: ConcurrentWorld, owner: Value, attribute: str) -> Home | None:
     """The first holder of the collection that an attribute holds for good, and its name."""
-    if not isinstance(owner, Instance) or not world.homes:
+    if not isinstance(owner, Instance) or not (world.homes or world.lent):
         return None
     held = owner.slots.get(attribute)
     if not isinstance(held, Collection) or is_reassigned(owner, attribute):
         return None
-    return world.homes.get(held)
+    return next(iter(lenders_of(world, held)), None) or world.homes.get(held)
 
 
 def homes_of(world: ConcurrentWorld, value: Value) -> list[Home]:

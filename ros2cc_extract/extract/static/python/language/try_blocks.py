@@ -27,7 +27,7 @@ def run_try(machine: Machine, node: ast.Try, frame: Frame) -> int:
     try:
         with (
             _trying(machine, any(_catches_type_error(each) for each in node.handlers)),
-            _catching(machine, _caught_by(node.handlers)),
+            catching(machine, _caught_by(node.handlers)),
         ):
             flow = regular()
     except CannotCallError:
@@ -63,7 +63,7 @@ def _trying(machine: Machine, catches: bool) -> Iterator[None]:
 
 
 @contextmanager
-def _catching(machine: Machine, caught: frozenset[str]) -> Iterator[None]:
+def catching(machine: Machine, caught: frozenset[str]) -> Iterator[None]:
     """What is raised inside may be caught, or is raised only because something else was."""
     before = machine.world.caught
     machine.world.caught = (*before, caught) if caught else before
@@ -107,7 +107,7 @@ def _run_handler(machine: Machine, handler: ast.ExceptHandler, frame: Frame) -> 
     held = machine.given_back_in(handler.body)
     machine.world.held = tuple(dict.fromkeys((*machine.world.held, *held)))
     try:
-        with _trying(machine, catches=True), _catching(machine, frozenset({_ANYTHING})):
+        with _trying(machine, catches=True), catching(machine, frozenset({_ANYTHING})):
             return machine.execute_block(handler.body, frame)
     except CannotCallError:
         return DEAD

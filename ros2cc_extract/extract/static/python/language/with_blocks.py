@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 
 from ros2cc_extract.extract.static.python.builtins import generators
+from ros2cc_extract.extract.static.python.language.try_blocks import catching
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import LibraryState
 from ros2cc_extract.extract.static.python.machine.machine import Machine
@@ -79,13 +80,21 @@ def run_with(machine: Machine, node: ast.With | ast.AsyncWith, frame: Frame) -> 
             if item.optional_vars is not None:
                 machine.assign(item.optional_vars, entered, frame)
             entered_ones.append((value, entered, place))
-        flow = machine.execute_block(node.body, frame)
+        with catching(machine, _suppressed(node)):
+            flow = machine.execute_block(node.body, frame)
         for value, entered, place in reversed(entered_ones):
             machine.note_left_block(entered, place)
             _exit(machine, value, _end_of(node, place), is_async=is_async)
         return flow
     finally:
         machine.world.held = machine.held_behind_block(held)
+
+
+def _suppressed(node: ast.With | ast.AsyncWith) -> frozenset[str]:
+    """The exceptions that ``contextlib.suppress`` catches, as they are written."""
+    calls = [each.context_expr for each in node.items if isinstance(each.context_expr, ast.Call)]
+    suppressing = [each for each in calls if ast.unparse(each.func).endswith('suppress')]
+    return frozenset(ast.unparse(name) for each in suppressing for name in each.args)
 
 
 def _exit(machine: Machine, value: Value, place: Place, *, is_async: bool) -> None:

@@ -9,7 +9,7 @@ from ros2cc_extract.extract.static.program.text_queries import (
     reassigned_attributes,
 )
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
-from ros2cc_extract.extract.static.python.machine.world import AccessKind
+from ros2cc_extract.extract.static.python.machine.world import AccessKind, World
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import (
     Class,
@@ -19,6 +19,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 
+_CATCHING = frozenset({'AttributeError', 'Exception', 'BaseException', ''})
 LOCKS = frozenset({'lock', 'rlock', 'condition', 'semaphore'})
 
 
@@ -59,3 +60,10 @@ def is_taken_away(owner: Value, name: str) -> bool:
 
 def _classes(cls: Value | None) -> Iterator[Class]:
     return (base for base in getattr(cls, 'mro', ()) if isinstance(base, Class))
+
+
+def is_bare(world: World) -> bool:
+    """Whether each run comes here without a test, and an error here is not caught."""
+    is_open = world.path != world.callback_path or bool(world.reading.passed)
+    is_open = is_open or any(asked.names for asked in world.reading.loops)
+    return not is_open and all(_CATCHING.isdisjoint(names) for names in world.caught)
