@@ -195,6 +195,8 @@ ADDS, TAKES, TAKES_ANY, EMPTIES = 'adds', 'takes', 'takes any', 'empties'
 TAKES_NEXT, FILLS = 'takes next', 'fills'
 COPIED, BY_INDEX = 'a copy', 'by index'
 """How a collection is gone over without asking it for the next item each time."""
+BY_NAME, BY_CALLBACK = ' may call it by a text', ' may call it by a text in a callback'
+"""Why it is not known whether a function runs: in a thread, or where the executor has it."""
 CANCELS = 'cancel'
 """The name of the change by which a timer ends itself after it has waited."""
 ABORTS = 'abort'

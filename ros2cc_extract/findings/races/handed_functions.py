@@ -18,6 +18,8 @@ from ros2cc_extract.findings.waits.concurrent_threads import (
     leaves_behind,
     sharing,
 )
+from ros2cc_extract.findings.waits.workers import is_one_thread
+from ros2cc_extract.spec.effects import BY_CALLBACK
 from ros2cc_extract.spec.model import Activity, ActivityKind, Spec
 
 _HARMLESS = (RaceKind.WHOLE_UPDATE, RaceKind.LAST_WRITE_WINS)
@@ -35,6 +37,8 @@ def races_with_others(unit: Spec) -> Iterator[str]:
     doers: tuple[Doer, ...] = (*shared_by(context), *known)
     for handed in unit.handed:
         others = [doer for doer in doers if not _take_turns(handed, doer)]
+        if is_one_thread(unit.executor) and _is_in_callback(handed):
+            others = [doer for doer in others if isinstance(doer, Activity)]
         for race in races_across((handed, doer) for doer in others):
             if race.kind not in _HARMLESS:
                 met = {use.doer.name: use.doer for use in (race.first, *race.others)}
@@ -59,6 +63,10 @@ def races_with_threads_left(unit: Spec) -> Iterator[str]:
                     f'{called(thread)} may still run when {called(callback)} starts it once more, '
                     f'and both use {race.names[0]}'
                 )
+
+
+def _is_in_callback(handed: Activity) -> bool:
+    return handed.unresolved is not None and handed.unresolved.reason.endswith(BY_CALLBACK)
 
 
 def _take_turns(handed: Activity, doer: Doer) -> bool:

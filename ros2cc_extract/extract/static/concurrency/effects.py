@@ -330,9 +330,8 @@ class Effects(Waits):
         noted, self.world.effects = self.world.effects, None
         held = self.evaluate(target, frame)
         self.world.effects = noted
-        homes = collection_aliases.homes_of(self.world, held)
-        if self.world.iterating is not None or kind is AccessKind.UPDATE_IN_PLACE:
-            homes += collection_aliases.lenders_of(self.world, held)
+        is_content = self.world.iterating is not None or kind is AccessKind.UPDATE_IN_PLACE
+        homes = collection_aliases.homes_of(self.world, held, is_lent=is_content)
         for home in homes:
             self._note_access(self._seen_at(home), kind, frame.place(target), attribute)
         return bool(homes)

@@ -24,6 +24,7 @@ from ros2cc_extract.extract.static.scan.guarded_runs import guarded
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.texts_that_act import may_make_entities
 from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import BY_CALLBACK, BY_NAME
 from ros2cc_extract.spec.model import ActivityKind, When
 
 _CONTAINERS = (list, dict, set)
@@ -51,7 +52,8 @@ def _handed(machine: RosInterpreter) -> Iterator[tuple[Value, Function, Place, s
         if not isinstance(function, Function) or (id(function.node), id(receiver)) in seen:
             continue
         seen.add((id(function.node), id(receiver)))
-        if _lacks_caller(machine, function) and not may_make_entities(
+        is_by_name = name.endswith((BY_NAME, BY_CALLBACK))
+        if (is_by_name or _lacks_caller(machine, function)) and not may_make_entities(
             machine.world, function.node
         ):
             yield value, function, place, name

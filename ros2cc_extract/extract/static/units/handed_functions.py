@@ -14,7 +14,7 @@ from ros2cc_extract.extract.static.units.activities import facts_of
 from ros2cc_extract.extract.static.units.handler_locks import is_plain_lock
 from ros2cc_extract.extract.static.units.torn_messages import pieces_of
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import Access
+from ros2cc_extract.spec.effects import BY_CALLBACK, BY_NAME, Access
 from ros2cc_extract.spec.model import Activity, ActivityKind, Executor
 
 _AT_ANY_TIME = 'a signal comes at any time'
@@ -57,7 +57,10 @@ def handed_to_others(
 
 
 def _handed_on(world: RosWorld) -> Iterator[tuple[ActivityState, str]]:
-    return ((state, _NOT_SCANNED.format(name)) for state, name in world.handed_on)
+    return (
+        (state, name if name.endswith((BY_NAME, BY_CALLBACK)) else _NOT_SCANNED.format(name))
+        for state, name in world.handed_on
+    )
 
 
 def _handlers(world: RosWorld, executor: Executor) -> Iterator[tuple[ActivityState, str]]:

@@ -27,6 +27,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import BY_CALLBACK, BY_NAME
 
 _COMPUTED = '(computed)'
 _CODE = (Bound, Function, Partial)
@@ -100,6 +101,32 @@ def any_of_owner(owner: Value, name: Value, place: Place) -> Mystery:
             for key, value in (item for each in known for item in each.slots.items()):
                 is_named = key.startswith(first) and key.endswith(last)
                 if (is_named or key.startswith(_COMPUTED)) and isinstance(value, Value):
-                    found += (each for each in options_of(value) if isinstance(each, _CODE))
+                    codes = (each for each in options_of(value) if isinstance(each, _CODE))
+                    found += (_method(option, each) for each in codes)
     why = Unknown('getattr with a computed name', place)
     return LookedUp(why, 'getattr(…)', found)
+
+
+def _method(owner: Instance, code: Value) -> Value:
+    """The function of a class as it is looked up in an object of it."""
+    is_method = isinstance(code, Function) and code.binding == 'method'
+    return Bound(owner, code) if is_method else code  # type: ignore[arg-type]
+
+
+def note_any_called(machine: Machine, owner: Value, how: str, place: Place) -> None:
+    """Any method of ``owner`` may be called here, by ``exec`` of a text that is not known."""
+    note_by_name(machine, any_of_owner(owner, owner, place), how, place)
+
+
+def note_by_name(machine: Machine, function: Value, how: str, place: Place) -> None:
+    """One of several functions is called, it is not known which: each may use its data here."""
+    if machine.world.effects is None or machine.world.only_data:
+        return
+    known = function.functions if isinstance(function, LookedUp) else ()
+    by = how + (BY_CALLBACK if machine.world.current is not None else BY_NAME)
+    machine.note_handed([each for each in known if not _is_special(each)], place, by)
+
+
+def _is_special(code: Value) -> bool:
+    inner = code.function if isinstance(code, Bound) else code
+    return isinstance(inner, Function) and inner.name.startswith('__')

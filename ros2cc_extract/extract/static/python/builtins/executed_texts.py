@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from contextlib import suppress
 
+from ros2cc_extract.extract.static.python.builtins import computed_names
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.values.containers import Mapping
@@ -12,6 +13,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
     Const,
+    Instance,
     Library,
     Native,
     Scope,
@@ -34,6 +36,9 @@ def executed(
     texts = [option.value for option in options_of(given) if isinstance(option, Const)]
     known = [text for text in texts if isinstance(text, str) and len(text) < _LONGEST]
     if len(known) != len(options_of(given)):
+        owner = frame.scope.slots.get('self')
+        if name != _COMPILE and isinstance(owner, Instance):
+            computed_names.note_any_called(machine, owner, name.rpartition('.')[2], call.place)
         return None
     if name == _COMPILE:
         return given  # ``eval`` and ``exec`` take the text as well

@@ -7,7 +7,11 @@ from collections.abc import Callable
 from functools import partial
 
 from ros2cc_extract.extract.static.program.text_queries import is_test, mangled
-from ros2cc_extract.extract.static.python.builtins import generators, given_functions
+from ros2cc_extract.extract.static.python.builtins import (
+    computed_names,
+    generators,
+    given_functions,
+)
 from ros2cc_extract.extract.static.python.builtins.code_behind import ACCESSORS, with_accessor
 from ros2cc_extract.extract.static.python.builtins.default_values import keep_defaults
 from ros2cc_extract.extract.static.python.language import plain_data_calls, recursive_loops
@@ -84,6 +88,7 @@ class Calls(Machine):
         self.library_call(function, call)
         if isinstance(function, Mystery):
             self.note_unknown_call(function, call)
+            computed_names.note_by_name(self, function, 'getattr', call.place)
             return Mystery(function.unknown, call.text or f'{function.text}(…)')
         name = function.name if isinstance(function, Library) else 'this value'
         return self.mystery(f'result of {name}, which is not followed', call.place, name)
