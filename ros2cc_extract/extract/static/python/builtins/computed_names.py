@@ -123,7 +123,7 @@ def note_by_name(machine: Machine, function: Value, how: str, place: Place) -> N
     if machine.world.effects is None or machine.world.only_data:
         return
     known = function.functions if isinstance(function, LookedUp) else ()
-    by = how + (BY_CALLBACK if machine.world.current is not None else BY_NAME)
+    by = how + (BY_NAME if machine.world.activity is not None else BY_CALLBACK)
     machine.note_handed([each for each in known if not _is_special(each)], place, by)
 
 
