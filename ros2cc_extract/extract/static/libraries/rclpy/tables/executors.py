@@ -240,6 +240,8 @@ def record_spin(
         node.state.spun, node.state.loop = True, world.loop
     if world.in_thread:
         return
+    if world.when is When.START:
+        machine.store.keep_contents()
     # Callbacks of a pool go on beside what comes behind a spin that ends.
     world.main_spins += world.when is When.START and (ever or executor.state.threads == 1)
     if ever:
