@@ -40,7 +40,7 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
     saved = (world.in_thread, world.effects, world.held, world.after_spin, world.count)
     path, chain, thread = world.path, world.chain, world.thread
     loops, ready, holds = (world.times, world.round), world.ready, world.holds
-    caught, world.caught = world.caught, ()
+    (caught, world.caught), (loop, world.loop) = (world.caught, ()), (world.loop, None)
     world.threads += 1
     world.thread = world.threads
     world.in_thread, world.effects, world.held, world.chain = True, None, (), ()
@@ -54,7 +54,7 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
         world.stopped = False
         world.path, world.chain, world.thread = path, chain, thread
         (world.times, world.round), world.holds = loops, holds
-        world.ready, world.caught = ready, caught
+        world.ready, world.caught, world.loop = ready, caught, loop
 
 
 def begin(

@@ -99,7 +99,9 @@ def _is_joined(world: RosWorld, thread: ActivityState) -> bool:
     blocks = [block for log in logs if log is not None for block in log.blocking]
     resources = (block.resource for block in blocks if block.seconds is None)
     in_callback = any(isinstance(r, ResourceRef) and r.number in runners for r in resources)
-    return in_callback or any(id(over.what) in runners for over in world.over)
+    waits = (*world.outside, *(each.outside for each in world.set_up.values()))
+    awaited = (*(over.what for over in world.over), *(wait.client for wait in waits))
+    return in_callback or any(id(what) in runners for what in awaited)
 
 
 def _by_two_threads(first: Spin, second: Spin) -> Diagnostic:

@@ -208,3 +208,28 @@ def test_several_threads_that_wait_for_answers_of_one_node(
 ) -> None:
     found = scan_text(SEVERAL.format(does=does, workers=workers)).diagnostics
     assert [each.place.line for each in found if each.slug == 'executor-spun-twice'] == lines
+
+
+PUMPED = """
+import asyncio
+import rclpy
+
+async def pump(node):
+    while rclpy.ok():
+        {step}
+
+rclpy.init()
+asyncio.run(pump(rclpy.create_node('pumped')))
+"""
+
+
+@pytest.mark.parametrize(
+    ('step', 'lines'),
+    [
+        ('await asyncio.to_thread(rclpy.spin_until_future_complete, node, rclpy.Future())', []),
+        ('asyncio.to_thread(rclpy.spin_until_future_complete, node, rclpy.Future())', [7]),
+    ],
+)
+def test_a_pool_thread_that_is_awaited_each_time(step: str, lines: list[int]) -> None:
+    found = scan_text(PUMPED.format(step=step)).diagnostics
+    assert [each.place.line for each in found if each.slug == 'executor-spun-twice'] == lines
