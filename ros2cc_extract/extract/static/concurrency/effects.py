@@ -198,18 +198,14 @@ class Effects(Waits):
             locks=self.world.held,
             update=kind in (AccessKind.UPDATE, AccessKind.UPDATE_IN_PLACE),
             in_place=is_content,
-            whole=not is_content
-            and not is_read
-            and reading.is_in_one_piece(name, self.world.path),
+            whole=not (is_content or is_read) and reading.is_in_one_piece(name, self.world.path),
             keeps_size=self.world.refilling,
             moves=EMPTIES if data_kinds.is_emptied(kind, reading.stored) else self.world.moves,
             iterates=self.world.iterating,
             item=item,
             chosen=chosen,
             rests=is_used or (rests and not (is_read or (is_stored and is_import))),
-            bare=(is_content or at in reading.used)
-            and not rests
-            and data_kinds.is_bare(self.world),
+            bare=not rests and data_kinds.is_bare(self.world, is_content or at in reading.used),
             compared=is_read and at in reading.compared,
             later=self._is_late(name, is_used=is_used or (is_content and is_tested), kind=kind),
             clears=is_stored and reading.stored == NONE,

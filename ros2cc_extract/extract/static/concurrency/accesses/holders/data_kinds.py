@@ -62,8 +62,8 @@ def _classes(cls: Value | None) -> Iterator[Class]:
     return (base for base in getattr(cls, 'mro', ()) if isinstance(base, Class))
 
 
-def is_bare(world: World) -> bool:
-    """Whether each run comes here without a test, and an error here is not caught."""
+def is_bare(world: World, is_used: bool) -> bool:
+    """Whether each run comes to this use without a test, and an error here is not caught."""
     is_open = world.path != world.callback_path or bool(world.reading.passed)
     is_open = is_open or any(asked.names for asked in world.reading.loops)
-    return not is_open and all(_CATCHING.isdisjoint(names) for names in world.caught)
+    return is_used and not is_open and all(_CATCHING.isdisjoint(names) for names in world.caught)
