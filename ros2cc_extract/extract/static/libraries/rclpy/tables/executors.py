@@ -217,6 +217,8 @@ def record_spin(
     place: Place,
     ever: bool,
     timeout: Value | None = None,
+    *,
+    takes: bool = False,
 ) -> None:
     world = machine.world
     if world.second_pass:
@@ -225,7 +227,7 @@ def record_spin(
     nodes = nodes_of(executor)
     executor.state.spun = True
     spin = Spin(executor, nodes, how, place, world.path, ever, world.in_thread)
-    spin.repeated = isinstance(world.count, Unknown)
+    spin.repeated, spin.takes = isinstance(world.count, Unknown), takes
     spin.timeout, spin.thread = None if timeout == NONE else timeout, world.thread
     spin.is_tried, spin.by = bool(world.caught), world.activity
     kept_threads.note_goes_on(world)
