@@ -40,6 +40,10 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
     path, chain, thread = world.path, world.chain, world.thread
     loops, ready, holds = (world.times, world.round), world.ready, world.holds
     caught, world.caught = world.caught, ()
+    loop, by_loop, depth = world.loop, world.by_loop, world.thread_depth
+    world.by_loop, world.thread_depth = False, len(machine.stack)
+    if not (isinstance(world.activity, ActivityState) and world.activity.on_loop):
+        world.loop = None
     world.threads += 1
     world.thread = world.threads
     world.in_thread, world.effects, world.held, world.chain = True, None, (), ()
@@ -54,6 +58,7 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
         world.path, world.chain, world.thread = path, chain, thread
         (world.times, world.round), world.holds = loops, holds
         world.ready, world.caught = ready, caught
+        world.loop, world.by_loop, world.thread_depth = loop, by_loop, depth
 
 
 def begin(

@@ -53,7 +53,10 @@ from ros2cc_extract.extract.static.units.whole_program.endless_readers import (
     note_endless_readers,
 )
 from ros2cc_extract.extract.static.units.whole_program.ends_while_served import note_ends
-from ros2cc_extract.extract.static.units.whole_program.foreign_loop_calls import note_foreign_loops
+from ros2cc_extract.extract.static.units.whole_program.foreign_loop_calls import (
+    note_foreign_loops,
+    note_missing_loops,
+)
 from ros2cc_extract.extract.static.units.whole_program.nodes_taken_by_threads import (
     note_taken_by_threads,
 )
@@ -116,6 +119,7 @@ def _run_entry(project: Project, entry: Entry, signals: frozenset[Place]) -> Ros
     note_taken(machine.world)
     note_ends(machine.world)
     note_foreign_loops(machine.world)
+    note_missing_loops(machine.world)
     note_endless_readers(machine.world)
     follow_handed(machine)
     return machine

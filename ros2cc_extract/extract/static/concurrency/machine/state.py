@@ -11,6 +11,7 @@ from dataclasses import field
 from typing import Any
 
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
+    LoopAsk,
     LoopRun,
     LoopTouch,
     Waking,
@@ -211,7 +212,8 @@ class ConcurrentWorld(World):
 
     :param activity: the thread or the part of the main program that is followed.
     :param spins_over: how many of the spins have ended for sure.
-    :param thread: the thread that is followed, 0 for that of the set-up; ``threads`` counts them.
+    :param thread: the thread that is followed, 0 for that of the set-up; ``threads`` counts them,
+        and ``thread_depth`` is how many calls led to its start.
     :param wakings: what is done to an object that others may wait on, by its identity.
     :param asked: marks of questions that the function has asked.
     :param made_at: identities of the objects that others may wait on, by the place they come from.
@@ -223,8 +225,10 @@ class ConcurrentWorld(World):
     :param surely_cleared: the same of those that clear them on all their branches.
     :param by_loop: a loop of asyncio does what is followed, in its own thread.
     :param cancelled: where futures are cancelled, by where they are made.
-    :param loop_runs: what runs one; ``loop_touches`` what is done to what belongs to one, and
-        ``awaited_of_loops`` the queues and events that some coroutine awaits.
+    :param loop_runs: what runs one; ``loop_touches`` what is done to what belongs to one,
+        ``loop_asks`` what needs one in its thread, and ``awaited_of_loops`` the queues and events
+        that some coroutine awaits.
+    :param sets_loops: some code gives its thread a loop.
     :param lost_wakes: what ends waits for an attribute of that name of what is not known.
     :param given: objects that were handed to code which is not followed, with the reason.
     :param kept_in: the attribute that an object others may wait on was stored in last, and
@@ -290,6 +294,8 @@ class ConcurrentWorld(World):
     by_loop: bool = False
     loop_runs: list[LoopRun] = field(default_factory=list)
     loop_touches: list[LoopTouch] = field(default_factory=list)
+    loop_asks: list[LoopAsk] = field(default_factory=list)
+    sets_loops: bool = False
     cancelled: dict[Place, Place] = field(default_factory=dict)
     awaited_of_loops: list[Value] = field(default_factory=list)
     lost_wakes: dict[tuple[str, Word], list[Place]] = field(default_factory=dict)
@@ -329,6 +335,7 @@ class ConcurrentWorld(World):
     spins_over: int = 0
     thread: int = 0
     threads: int = 0
+    thread_depth: int = 0
     exit_hooks: list[tuple[Value, Call]] = field(default_factory=list)
     signal_handlers: list[ActivityState] = field(default_factory=list)
     handed_on: list[tuple[ActivityState, str]] = field(default_factory=list)

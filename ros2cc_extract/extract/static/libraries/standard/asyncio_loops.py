@@ -9,11 +9,16 @@ does not), ``asyncio/queues.py``; library reference, *Developing with asyncio*.
 
 from __future__ import annotations
 
+import builtins
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.machine.wake_operations import LoopRun, LoopTouch
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
+    LoopAsk,
+    LoopRun,
+    LoopTouch,
+)
 from ros2cc_extract.extract.static.libraries.standard.futures import (
     LOOP,
     RUNS,
@@ -79,6 +84,36 @@ def _note_touch(machine: ConcurrentMachine, thing: Value, how: str, call: Call) 
     touch = LoopTouch(how, thing, doer, call.place)
     if not any(touch.is_same(other) for other in world.loop_touches):
         world.loop_touches.append(touch)
+
+
+def _needing(how: str, handler: Handler, *, is_any: bool = False) -> Handler:
+    """
+    What raises ``RuntimeError`` where no loop runs in its thread.
+
+    :param is_any: the loop of the main thread is enough, even if nothing runs it.
+    """
+
+    def asking(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+        _note_ask(machine, how, call.place, is_any=is_any)
+        return handler(machine, receiver, call)
+
+    return asking
+
+
+def _note_ask(machine: ConcurrentMachine, how: str, place: Place, *, is_any: bool) -> None:
+    """Note that a callback needs a loop; which thread runs it is found after the run."""
+    world = machine.world
+    is_other = world.by_loop or _ASKED in world.asked or not world.in_callback
+    if is_other or world.current is None or any(map(_may_catch, world.caught)):
+        return
+    if not any(ask.place == place and ask.doer is world.current for ask in world.loop_asks):
+        world.loop_asks.append(LoopAsk(how, world.current, place, is_any))
+
+
+def _may_catch(names: frozenset[str]) -> bool:
+    """Whether a handler of these names may catch a ``RuntimeError``."""
+    kinds = (getattr(builtins, name, RuntimeError) for name in names)
+    return any(isinstance(kind, type) and issubclass(RuntimeError, kind) for kind in kinds)
 
 
 def _run_coroutine(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
@@ -323,6 +358,16 @@ def _new_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return loop
 
 
+def _set_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """``set_event_loop``: its thread has a loop, which need not run."""
+    machine.world.sets_loops = True
+    return NONE
+
+
+def _some_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    return machine.mystery('a task of asyncio', call.place, 'asyncio task')
+
+
 def _own_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     loop = Instance(Name(_LOOP), call.place)
     begin = machine.world.own_loop
@@ -350,15 +395,17 @@ TABLE = Library(
     },
     functions={
         'asyncio.run': _run_loop,
-        'asyncio.gather': _gather,
+        'asyncio.gather': _needing('asyncio.gather', _gather, is_any=True),
         'asyncio.wait_for': _wait_for,
         'asyncio.wait': _gather,
-        'asyncio.create_task': _create_task,
-        'asyncio.ensure_future': _create_task,
+        'asyncio.create_task': _needing('asyncio.create_task', _create_task),
+        'asyncio.ensure_future': _needing('asyncio.ensure_future', _create_task, is_any=True),
+        'asyncio.current_task': _needing('asyncio.current_task', _some_task),
         'asyncio.sleep': _asyncio_sleep,
-        'asyncio.get_event_loop': _own_loop,
+        'asyncio.get_event_loop': _needing('asyncio.get_event_loop', _own_loop, is_any=True),
+        'asyncio.set_event_loop': _set_loop,
         'asyncio.new_event_loop': _new_loop,
-        'asyncio.get_running_loop': _own_loop,
+        'asyncio.get_running_loop': _needing('asyncio.get_running_loop', _own_loop),
     },
     aliases={
         'asyncio.queues.Queue': 'asyncio.Queue',

@@ -251,6 +251,7 @@ class Spin:
     :param is_tried: what rises out of it may be caught.
     :param by: the thread of the program's own that does it.
     :param chains: the calls that lead to it.
+    :param may_have_loop: a loop of asyncio may run what calls it.
     """
 
     executor: Instance
@@ -268,6 +269,7 @@ class Spin:
     is_tried: bool = False
     by: ActivityState | None = None
     chains: dict[tuple[Place, ...], None] = field(default_factory=dict)
+    may_have_loop: bool = False
 
     @property
     def key(self) -> object:
