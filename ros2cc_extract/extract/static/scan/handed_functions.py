@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.libraries.qt.handlers import handlers_of
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.python.values.unknown_callers import unknown_arguments
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
@@ -30,7 +32,11 @@ _CONTAINERS = (list, dict, set)
 
 
 def follow_handed(machine: RosInterpreter) -> None:
-    """Follow each of them once, unless code of the program calls it too or it makes entities."""
+    """
+    Follow each of them once, unless code of the program calls it too.
+
+    Nor one that makes entities, which have not been followed as such.
+    """
     for value, function, place, name in _handed(machine):
         skip = 1 if isinstance(value, Bound) else 0
         is_partial = isinstance(value, Partial)
@@ -42,7 +48,14 @@ def follow_handed(machine: RosInterpreter) -> None:
 
 def _handed(machine: RosInterpreter) -> Iterator[tuple[Value, Function, Place, str]]:
     seen = set[tuple[int, int]]()
-    for value, place, name in machine.world.handed[:MOST_CALLBACKS]:
+    world = machine.world
+    followed = _of_unknown_code(world)
+    overriding = (
+        (handler, handler.function.place, base)
+        for instance in world.instances
+        for handler, base in handlers_of(instance)
+    )
+    for value, place, name in (*world.handed[:MOST_CALLBACKS], *overriding):
         inner = value
         while isinstance(inner, Partial):
             inner = inner.function
@@ -51,17 +64,16 @@ def _handed(machine: RosInterpreter) -> Iterator[tuple[Value, Function, Place, s
         if not isinstance(function, Function) or (id(function.node), id(receiver)) in seen:
             continue
         seen.add((id(function.node), id(receiver)))
-        if _lacks_caller(machine, function) and not may_make_entities(
-            machine.world, function.node
-        ):
+        is_followed = id(function.node) in followed
+        is_new = id(function.node) not in world.called
+        if is_followed or (is_new and not may_make_entities(world, function.node)):
             yield value, function, place, name
 
 
-def _lacks_caller(machine: RosInterpreter, function: Function) -> bool:
-    """Whether no code of the program calls it; what was followed all the same may be."""
-    world, number = machine.world, id(function.node)
-    is_followed = number in world.without_caller or number in world.escaped_to_unknown
-    return number not in world.called or is_followed
+def _of_unknown_code(world: RosWorld) -> frozenset[int]:
+    """What was followed all the same, as unknown code may call it, and what that calls alone."""
+    uncalled = world.without_caller.keys()
+    return frozenset(world.escaped_to_unknown | world.called_later | uncalled)
 
 
 def _follow(machine: RosInterpreter, state: ActivityState) -> None:

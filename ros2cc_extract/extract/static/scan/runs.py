@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 
 from ros2cc_extract.extract.static.concurrency.accesses.signal_locks import signals_of
@@ -153,7 +155,16 @@ def _run_escaped_one(
         )
         machine.run_if_coroutine(machine.call(value, call), place)
 
-    guarded(machine, follow, place)
+    with _called_later(machine.world):
+        guarded(machine, follow, place)
+
+
+@contextmanager
+def _called_later(world: RosWorld) -> Iterator[None]:
+    """What is called first inside has no known caller but what unknown code calls."""
+    before = frozenset(world.called)
+    yield
+    world.called_later |= world.called.keys() - before
 
 
 def run_rest_of_instances(machine: RosInterpreter) -> None:
@@ -313,7 +324,8 @@ def _run_later(machine: RosInterpreter, instance: Instance, name: str, method: F
         result = machine.call(target, call)
         machine.run_if_coroutine(result, place)
 
-    guarded(machine, follow, place)
+    with _called_later(machine.world):
+        guarded(machine, follow, place)
     if is_test(name):
         end_test(machine)
     machine.world.called[id(method.node)] = method

@@ -370,7 +370,7 @@ def _note_end(machine: ConcurrentMachine, thread: Value) -> None:
             activity.ends_first = activity.ends_first or is_first
 
 
-def _join(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+def join(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """What the thread spun is spun no more where the program has waited for its end."""
     world = machine.world
     if not world.in_callback and not world.in_thread:
@@ -388,7 +388,7 @@ _THREAD = LibraryClass(
     state=_thread_state(ActivityKind.THREAD),
     init=_thread_init,
     is_beside=True,
-    methods={'start': _start, 'join': _join, 'is_alive': _is_alive, 'setDaemon': _set_daemon},
+    methods={'start': _start, 'join': join, 'is_alive': _is_alive, 'setDaemon': _set_daemon},
 )
 
 _PRIMITIVES = {
