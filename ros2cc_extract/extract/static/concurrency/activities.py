@@ -41,6 +41,7 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
     loops, ready, holds = (world.times, world.round), world.ready, world.holds
     caught, world.caught = world.caught, ()
     loop, by_loop, depth = world.loop, world.by_loop, world.thread_depth
+    task, world.loop_task = world.loop_task, None
     world.by_loop, world.thread_depth = False, len(machine.stack)
     if not (isinstance(world.activity, ActivityState) and world.activity.on_loop):
         world.loop = None
@@ -59,6 +60,7 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
         (world.times, world.round), world.holds = loops, holds
         world.ready, world.caught = ready, caught
         world.loop, world.by_loop, world.thread_depth = loop, by_loop, depth
+        world.loop_task = task
 
 
 def begin(
@@ -69,7 +71,7 @@ def begin(
     runner: Value | None = None,
     *,
     daemon: bool | None = False,
-    on_loop: bool = False,
+    on_loop: object = None,
     turns: object = None,
     pool: Instance | None = None,
 ) -> None:
@@ -77,6 +79,7 @@ def begin(
     Start an activity.
 
     :param runner: the thread or future that stands for it.
+    :param on_loop: what is equal for all that the loop runs which runs it.
     :param turns: as of an ``ActivityState``, and ``pool`` too.
     """
     world = machine.world
@@ -96,7 +99,8 @@ def begin(
         return
     machine.charge(THING_STEPS)
     state.path, state.count = world.path, _count(world, call.place)
-    state.thread, state.on_loop = world.threads + 1, on_loop
+    state.thread, state.on_loop = world.threads + 1, on_loop is not None
+    state.loop = on_loop
     state.spins = world.main_spins
     world.activities.append(state)
     outer, world.activity = world.activity, state

@@ -21,6 +21,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.concurrency.effects import Effects
+from ros2cc_extract.extract.static.concurrency.waits import loop_tasks
 from ros2cc_extract.extract.static.concurrency.waits.loops import (
     counted_tests,
     polling_loops,
@@ -34,13 +35,30 @@ from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Implied
 from ros2cc_extract.extract.static.python.objects.escape import reached
-from ros2cc_extract.extract.static.python.values.values import Instance, Value
+from ros2cc_extract.extract.static.python.values.values import Coroutine, Instance, Value
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import BY_INDEX, COPIED
 
 
 class Notes(Effects):
     """Beside accesses, locks and waits: tests, loops, and the ways out of functions."""
+
+    def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
+        """A task of a loop may take it while another one keeps it."""
+        super().note_acquire(lock, place, may_fail=may_fail)
+        if not may_fail:
+            loop_tasks.note_taken(self.world, lock, place)
+
+    def note_await(self, value: Value, place: Place) -> None:
+        """A task of a loop waits; its own coroutines are only calls."""
+        loop_tasks.note_awaited(self.world, value)
+        if not isinstance(value, Coroutine):
+            self.note_suspended(place)
+        super().note_await(value, place)
+
+    def note_suspended(self, place: Place) -> None:
+        """A task of a loop lets others run."""
+        loop_tasks.note_suspended(self.world, place)
 
     def note_part(self, target: ast.expr, frame: Frame, how: str = '') -> None:
         """An attribute or item of an object is stored, or a collection in it changes in place."""
@@ -55,6 +73,8 @@ class Notes(Effects):
 
     def note_for(self, node: ast.For | ast.AsyncFor, frame: Frame) -> None:
         """It goes over a collection, itself or by its indices."""
+        if isinstance(node, ast.AsyncFor):
+            self.note_suspended(frame.place(node.iter))
         self.note_iteration(node.iter, frame)
         rows = iterations.by_index(node) if isinstance(node, ast.For) else None
         if rows is not None:

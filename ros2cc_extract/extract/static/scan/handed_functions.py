@@ -7,10 +7,13 @@ the data that they touch; nothing else that they do changes what is known.
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
+from contextlib import nullcontext
 from typing import Any
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.waits.loop_tasks import LoopTask, as_root
 from ros2cc_extract.extract.static.libraries.qt.handlers import handlers_of
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.python.values.unknown_callers import unknown_arguments
@@ -42,7 +45,7 @@ def follow_handed(machine: RosInterpreter) -> None:
         is_partial = isinstance(value, Partial)
         call = Call(place) if is_partial else unknown_arguments(function, place, skip)
         state = ActivityState(ActivityKind.THREAD, place, value, call)
-        _follow(machine, state)
+        _follow(machine, state, function, name)
         machine.world.handed_on.append((state, name))
 
 
@@ -76,7 +79,17 @@ def _of_unknown_code(world: RosWorld) -> frozenset[int]:
     return frozenset(world.escaped_to_unknown | world.called_later | uncalled)
 
 
-def _follow(machine: RosInterpreter, state: ActivityState) -> None:
+_OTHERS = 'loop of code that is not scanned'
+_ONCE = ('startup', 'shutdown', 'cleanup', 'lifespan', 'on_event', 'contextmanager')
+"""What is in the names of what such code calls once."""
+
+
+def _is_coroutine(function: Function) -> bool:
+    return isinstance(function.node, ast.AsyncFunctionDef)
+
+
+def _follow(machine: RosInterpreter, state: ActivityState, function: Function, name: str) -> None:
+    """A coroutine of a web server is a task of its loop, which may run it for several clients."""
     world = machine.world
     kept = _contents(world)
 
@@ -91,8 +104,13 @@ def _follow(machine: RosInterpreter, state: ActivityState) -> None:
             machine.run_if_coroutine(machine.call(state.target, state.call), state.place)
         machine.store.close_branch(mark)
 
-    guarded(machine, follow, state.place)
+    many = not any(word in name for word in _ONCE)
+    task = LoopTask(function.name, _OTHERS, many=many) if _is_coroutine(function) else None
+    with as_root(world, id(state), task) if task is not None else nullcontext():
+        guarded(machine, follow, state.place)
     _put_back(kept)
+    if task is not None:
+        world.loop_roots[id(state)] = task
 
 
 def _contents(world: Any) -> list[tuple[Any, Any]]:

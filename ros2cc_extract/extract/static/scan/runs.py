@@ -50,15 +50,18 @@ from ros2cc_extract.extract.static.scan.handed_functions import follow_handed
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_test, end_test
 from ros2cc_extract.extract.static.scan.texts_that_act import leads_to_waits, may_make_entities
+from ros2cc_extract.extract.static.units.event_loops.foreign_loop_calls import (
+    note_foreign_loops,
+    note_missing_loops,
+)
+from ros2cc_extract.extract.static.units.event_loops.locks_over_awaits import (
+    note_locks_over_awaits,
+)
 from ros2cc_extract.extract.static.units.whole_program.double_spins import note_spun_twice
 from ros2cc_extract.extract.static.units.whole_program.endless_readers import (
     note_endless_readers,
 )
 from ros2cc_extract.extract.static.units.whole_program.ends_while_served import note_ends
-from ros2cc_extract.extract.static.units.whole_program.foreign_loop_calls import (
-    note_foreign_loops,
-    note_missing_loops,
-)
 from ros2cc_extract.extract.static.units.whole_program.nodes_taken_by_threads import (
     note_taken_by_threads,
 )
@@ -124,6 +127,7 @@ def _run_entry(project: Project, entry: Entry, signals: frozenset[Place]) -> Ros
     note_missing_loops(machine.world)
     note_endless_readers(machine.world)
     follow_handed(machine)
+    note_locks_over_awaits(machine.world)
     return machine
 
 

@@ -59,7 +59,8 @@ class ActivityState(Doer):
     :param pool: the pool whose threads run it.
     :param site: equal for one start that is met again.
     :param wakes: what it does to end waits, as it was seen in the set-up, and what it puts.
-    :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it.
+    :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it,
+        and ``loop`` is equal for what one loop has.
     :param alone: the attributes it is kept in, of which each start has found that the thread there
         has ended; with what starts it, and the holds of locks from that test on.
     :param left: attributes that it has itself emptied by now.
@@ -91,6 +92,7 @@ class ActivityState(Doer):
     wakes: list[tuple[Value, Word, Place, Value | None]] = field(default_factory=list)
     thread: int = 0
     on_loop: bool = False
+    loop: object = None
     turns: object = None
     pool: Instance | None = None
     alone: dict[KeptIn, tuple[tuple[Doer | None, frozenset[tuple[str, int]]], ...]] | None = None
@@ -228,6 +230,8 @@ class ConcurrentWorld(World):
     :param loop_runs: what runs one; ``loop_touches`` what is done to what belongs to one,
         ``loop_asks`` what needs one in its thread, and ``awaited_of_loops`` the queues and events
         that some coroutine awaits.
+    :param loop_task: the task of such a loop that is followed, see ``loop_tasks.py``;
+        ``loop_roots`` all that no other one has made, and ``loop_steps`` numbers what they do.
     :param sets_loops: some code gives its thread a loop.
     :param lost_wakes: what ends waits for an attribute of that name of what is not known.
     :param given: objects that were handed to code which is not followed, with the reason.
@@ -295,6 +299,9 @@ class ConcurrentWorld(World):
     loop_runs: list[LoopRun] = field(default_factory=list)
     loop_touches: list[LoopTouch] = field(default_factory=list)
     loop_asks: list[LoopAsk] = field(default_factory=list)
+    loop_task: Any = None
+    loop_roots: dict[object, Any] = field(default_factory=dict)
+    loop_steps: int = 0
     sets_loops: bool = False
     cancelled: dict[Place, Place] = field(default_factory=dict)
     awaited_of_loops: list[Value] = field(default_factory=list)

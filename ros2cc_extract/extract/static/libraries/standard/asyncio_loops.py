@@ -19,9 +19,11 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     LoopRun,
     LoopTouch,
 )
+from ros2cc_extract.extract.static.concurrency.waits import loop_tasks
 from ros2cc_extract.extract.static.libraries.standard.futures import (
     LOOP,
     RUNS,
+    key_of_loop,
     run_in_executor,
 )
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items
@@ -40,6 +42,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
     Const,
+    Coroutine,
     Handler,
     Instance,
     Native,
@@ -120,7 +123,9 @@ def _run_coroutine(machine: ConcurrentMachine, receiver: Value, call: Call) -> V
     """A loop of asyncio runs it, here and now; what it awaits holds the thread."""
     world = machine.world
     before, world.on_loop = world.on_loop, world.in_callback
-    outer, world.loop = world.loop, world.loop if world.in_callback else call.place
+    outer = world.loop
+    if outer is None and not world.in_callback:
+        world.loop = call.place
     try:
         with _by_loop(machine):
             results = [machine.await_value(arg, call.place) for arg in call.args]
@@ -131,7 +136,33 @@ def _run_coroutine(machine: ConcurrentMachine, receiver: Value, call: Call) -> V
 
 def _run_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     _note_run(machine, receiver, call.place)
-    return _run_coroutine(machine, receiver, call)
+    world = machine.world
+    loop = key_of_loop(receiver) if isinstance(receiver, Instance) else call.place
+    task = loop_tasks.LoopTask(_name_of(call), loop, run_at=call.place)
+    key = (call.place, world.chain, id(world.activity or world.current))
+    with loop_tasks.as_root(world, key, task):
+        result = _run_coroutine(machine, receiver, call)
+    loop_tasks.end(world, task)
+    return result
+
+
+def _name_of(call: Call) -> str:
+    """The function of the coroutine that a call gets."""
+    given = call.args[0] if call.args else NONE
+    return given.function.name if isinstance(given, Coroutine) else 'a coroutine'
+
+
+def _follow_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> None:
+    """Follow what a task does, beside the task that has made it."""
+    world, inner = machine.world, Call(call.place, call.args[:1])
+    task = loop_tasks.child_of(world, _name_of(call))
+    if task is not None or not isinstance(receiver, Instance):
+        with loop_tasks.followed_as(world, task):
+            _run_coroutine(machine, receiver, inner)
+        return
+    root = loop_tasks.LoopTask(_name_of(call), key_of_loop(receiver), many=bool(world.open_loops))
+    with loop_tasks.as_root(world, (call.place, world.chain, id(world.current)), root):
+        _run_coroutine(machine, receiver, inner)
 
 
 def _note_run(machine: ConcurrentMachine, loop: Value, place: Place) -> None:
@@ -151,13 +182,14 @@ def make_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         return task
     effects, held, holds = world.effects, world.held, world.holds
     if effects is None or (world.activity is not None and world.when is When.START):
-        return _run_coroutine(machine, receiver, call)
+        _follow_task(machine, receiver, call)
+        return machine.mystery(loop_tasks.TASK, call.place, 'asyncio task')
     world.effects, world.held = None, ()
     try:
-        _run_coroutine(machine, receiver, Call(call.place, call.args[:1]))
+        _follow_task(machine, receiver, call)
     finally:
         world.effects, world.held, world.holds = effects, held, holds
-    return machine.mystery('a task of asyncio', call.place, 'asyncio task')
+    return machine.mystery(loop_tasks.TASK, call.place, 'asyncio task')
 
 
 def _create_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
@@ -172,7 +204,7 @@ def _gather(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """All run at the same time, and all are awaited."""
     tasks = [_as_task(machine, each, call.place) for each in call.args]
     if call.more or not tasks or any(task is None for task in tasks):
-        return _run_coroutine(machine, receiver, call)
+        return _run_all(machine, receiver, call)
 
     def wait(machine: ConcurrentMachine, _: Value, inner: Call) -> Value:
         for task in tasks:
@@ -180,6 +212,25 @@ def _gather(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         return machine.mystery('results of asyncio.gather', inner.place, 'await gather(…)')
 
     return coroutine_of('asyncio.gather', wait, call)
+
+
+def _run_all(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """Follow all, each a task that runs beside the others, until all are over."""
+    world, many = machine.world, call.more is not None
+    calls = [Call(call.place, [each]) for each in call.args]
+    made = [
+        loop_tasks.child_of(world, _name_of(each), many=many)
+        if isinstance(each.args[0], Coroutine)
+        else None
+        for each in calls
+    ]
+    results = []
+    for task, each in zip(made, calls, strict=True):
+        with loop_tasks.followed_as(world, task):
+            results.append(_run_coroutine(machine, receiver, each))
+    for task in made:
+        loop_tasks.end(world, task)
+    return results[0] if results else NONE
 
 
 def _as_task(machine: ConcurrentMachine, value: Value, place: Place) -> Value | None:
@@ -281,8 +332,14 @@ def _awaitable(name: str, word: Word | None = None) -> Handler:
 
 def coroutine_of(name: str, awaited: Handler, call: Call) -> Instance:
     """What a coroutine function of a library gives: ``awaited`` happens when it is awaited."""
+
+    def suspended(machine: ConcurrentMachine, receiver: Value, inner: Call) -> Value:
+        if name not in _AT_ONCE:
+            machine.note_suspended(inner.place)
+        return awaited(machine, receiver, inner)
+
     coroutine = _made('asyncio.coroutine', 'coroutine', call)
-    coroutine.slots[AWAITED] = Native(name, awaited)
+    coroutine.slots[AWAITED] = Native(name, suspended)
     return coroutine
 
 
@@ -314,6 +371,8 @@ def _wait_for(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 _PUT = 'asyncio.Queue.put'
+_AT_ONCE = frozenset({'acquire', _PUT})
+"""They need not wait for others."""
 _QUEUE = LibraryClass(
     state=lambda machine, instance: PlainState('queue', place=instance.place),
     init=init_queue,
@@ -365,7 +424,7 @@ def _set_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _some_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    return machine.mystery('a task of asyncio', call.place, 'asyncio task')
+    return machine.mystery(loop_tasks.TASK, call.place, 'asyncio task')
 
 
 def _own_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:

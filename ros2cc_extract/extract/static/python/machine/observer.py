@@ -139,6 +139,9 @@ class Observer:
     def note_await(self, value: Value, place: Place) -> None:
         """``value`` is awaited."""
 
+    def note_suspended(self, place: Place) -> None:
+        """A coroutine lets others run, at an ``async with`` or the like."""
+
     def note_turn(self, place: Place) -> None:
         """A coroutine lets others run and goes on by itself."""
 
