@@ -31,7 +31,8 @@ class LoopTask:
 
     :param loop: equal for those of one loop.
     :param parent: the task that has made it.
-    :param many: it may run several times at once.
+    :param many: so many are made of it at once; ``is_left`` where the next round of a loop makes
+        one before it has ended.
     :param begun: the number of the step that made it; ``ended`` that behind which it is over.
     :param run_at: where the call stands that runs the loop.
     :param rounds: how many loops were open then, and ``around`` the locks that its maker held.
@@ -50,6 +51,7 @@ class LoopTask:
     rounds: int = 0
     around: frozenset[str] = frozenset()
     is_again: bool = False
+    is_left: bool = False
     takes: dict[tuple[Instance, Place], int] = field(default_factory=dict)
     holds: dict[tuple[Instance, str, Place], int] = field(default_factory=dict)
     children: list[LoopTask] = field(default_factory=list)
@@ -60,6 +62,11 @@ class LoopTask:
         yield self
         for child in self.children:
             yield from child.all
+
+    @property
+    def meets_itself(self) -> bool:
+        """Whether it may run several times at once."""
+        return self.many or self.is_left
 
     @property
     def makers(self) -> list[LoopTask]:
@@ -83,9 +90,9 @@ def child_of(world: ConcurrentWorld, name: str, *, many: bool = False) -> LoopTa
     if parent is None:
         return None
     world.loop_steps += 1
-    is_repeated = many or world.open_loops > parent.rounds
-    made = LoopTask(name, parent.loop, parent, is_repeated, world.loop_steps)
+    made = LoopTask(name, parent.loop, parent, many, world.loop_steps)
     made.run_at, made.rounds = parent.run_at, world.open_loops
+    made.is_left = world.open_loops > parent.rounds
     parent.children.append(made)
     return made
 
@@ -113,7 +120,7 @@ def end(world: ConcurrentWorld, task: LoopTask | None) -> None:
     if task is not None and task.ended is None:
         world.loop_steps += 1
         task.ended = world.loop_steps
-        task.many = task.many and world.open_loops < task.rounds
+        task.is_left = task.is_left and world.open_loops < task.rounds
 
 
 def current_task(world: ConcurrentWorld) -> LoopTask | None:

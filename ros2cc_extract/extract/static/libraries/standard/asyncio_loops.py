@@ -9,6 +9,7 @@ does not), ``asyncio/queues.py``; library reference, *Developing with asyncio*.
 
 from __future__ import annotations
 
+import ast
 import builtins
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -216,13 +217,13 @@ def _gather(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 def _run_all(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Follow all, each a task that runs beside the others, until all are over."""
-    world, many = machine.world, call.more is not None
+    world, alone = machine.world, _written_out(call)
     calls = [Call(call.place, [each]) for each in call.args]
     made = [
-        loop_tasks.child_of(world, _name_of(each), many=many)
+        loop_tasks.child_of(world, _name_of(each), many=at >= alone)
         if isinstance(each.args[0], Coroutine)
         else None
-        for each in calls
+        for at, each in enumerate(calls)
     ]
     results = []
     for task, each in zip(made, calls, strict=True):
@@ -231,6 +232,15 @@ def _run_all(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     for task in made:
         loop_tasks.end(world, task)
     return results[0] if results else NONE
+
+
+def _written_out(call: Call) -> int:
+    """How many arguments stand in front of what is spread out and may be any number."""
+    if call.more is None:
+        return len(call.args)
+    given = call.text.args if isinstance(call.text, ast.Call) else []
+    stars = (at for at, each in enumerate(given) if isinstance(each, ast.Starred))
+    return next(stars, 0)
 
 
 def _as_task(machine: ConcurrentMachine, value: Value, place: Place) -> Value | None:

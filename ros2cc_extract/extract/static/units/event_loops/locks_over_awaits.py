@@ -65,17 +65,17 @@ def _by_task(hold: _Hold, task: LoopTask, world: RosWorld) -> Iterator[Diagnosti
             is_same = task.name == hold.task.name
             who = 'another run of it in the same asyncio loop' if is_same else task.name
             who += '' if is_same else ', in the same asyncio loop,'
-            is_sure = task is not hold.task and not (task.many or hold.task.many)
+            is_sure = task is not hold.task and not (task.meets_itself or hold.task.meets_itself)
             yield _diagnostic(hold, who, place, world, is_sure=is_sure)
 
 
 def _may_meet(hold: _Hold, task: LoopTask, at: int) -> bool:
     """Whether ``task`` may come to its step ``at`` while the lock is kept."""
     if task is hold.task:
-        return any(each.many for each in task.makers)
+        return any(each.meets_itself for each in task.makers)
     mine, other = hold.task.makers, task.makers
     common = sum(one is each for one, each in zip(mine, other, strict=False))
-    if common and any(each.many for each in mine[:common]):
+    if common and any(each.meets_itself for each in mine[:common]):
         return True
     of_mine, of_other = _life(mine[common:], hold.at), _life(other[common:], at)
     return of_mine[0] <= of_other[1] and of_other[0] <= of_mine[1]
@@ -130,7 +130,17 @@ def _diagnostic(
         message=f'{hold.task.name} holds {hold.name} while it awaits, and {who} may wait for '
         f'{hold.name} meanwhile: that holds up the thread of both, and they wait forever',
         help=f'give {hold.name} back before the await, or use an asyncio.Lock by "async with"',
-        related=tuple(
-            RelatedPlace(place, f'{hold.name} is taken here') for place in dict.fromkeys(places)
+        related=(
+            *(RelatedPlace(each, f'{hold.name} is taken here') for each in dict.fromkeys(places)),
+            *_callbacks_too(hold, taken, world),
         ),
     )
+
+
+def _callbacks_too(hold: _Hold, taken: Place, world: RosWorld) -> Iterator[RelatedPlace]:
+    """Callbacks of other threads that want the lock, and then wait too."""
+    for entity in world.entities:
+        acts = entity.effects.locks if entity.effects is not None else ()
+        act = next((each for each in acts if each.name == hold.name and not each.tries), None)
+        if act is not None and act.source is not None and act.source != taken:
+            yield RelatedPlace(act.source, f'{_called(entity)} waits for it as well, from then on')

@@ -98,7 +98,7 @@ def test_so_it_is_in_blocks_and_loops_that_wait(keeps: str) -> None:
         (BOTH.replace('bridge.take()', 'bridge.rest()'), []),
         (BOTH.replace('bridge.take()', '*server.more()'), []),
         (BOTH.replace('bridge.take()', '*[bridge.take() for _ in range(3)]'), SURE),
-        (BOTH.replace('bridge.take()', '*(bridge.take() for each in server.ids())'), SURE),
+        (BOTH.replace('bridge.take()', '*(bridge.take() for each in server.ids())'), MAYBE),
         (
             BOTH.replace(
                 'bridge.keep(), bridge.take()', '*(bridge.keep() for each in server.ids())'
@@ -298,3 +298,11 @@ def test_a_handler_of_a_server_may_run_for_several_clients(
 ) -> None:
     run = SERVED.replace('HOW', how).replace('ASYNC', 'async').replace('KEEP', keep)
     assert bool(told(run)) is is_told
+
+
+def test_callbacks_of_other_threads_that_wait_as_well_are_named() -> None:
+    text = PROGRAM.replace('KEEPS', KEEPS).replace('TAKES', TAKES)
+    text = text.replace('MADE', 'threading.Lock()') + BOTH
+    [found] = [d for d in scan_text(text).diagnostics if d.slug == 'lock-over-wait']
+    assert [each.place.line for each in found.related] == [25, 28, 15]
+    assert found.related[-1].text == 'Bridge.on_text waits for it as well, from then on'
