@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     lost_notifications,
     torn_state,
     torn_updates,
+    web_servers,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.concurrency.effects import Effects
@@ -35,7 +36,13 @@ from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Implied
 from ros2cc_extract.extract.static.python.objects.escape import reached
-from ros2cc_extract.extract.static.python.values.values import Coroutine, Instance, Value
+from ros2cc_extract.extract.static.python.values.values import (
+    Call,
+    Coroutine,
+    Instance,
+    Mystery,
+    Value,
+)
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import BY_INDEX, COPIED
 
@@ -59,6 +66,15 @@ class Notes(Effects):
     def note_suspended(self, place: Place) -> None:
         """A task of a loop lets others run."""
         loop_tasks.note_suspended(self.world, place)
+
+    def note_library_call(self, name: str, place: Place) -> None:
+        """A web server may be run."""
+        web_servers.note_run(self.world, name, '', place)
+
+    def note_unknown_call(self, function: Mystery, call: Call) -> None:
+        """A web server may be run; or it waits by its name."""
+        web_servers.note_run(self.world, function.text, function.unknown.reason, call.place)
+        super().note_unknown_call(function, call)
 
     def note_part(self, target: ast.expr, frame: Frame, how: str = '') -> None:
         """An attribute or item of an object is stored, or a collection in it changes in place."""

@@ -12,6 +12,10 @@ from collections.abc import Iterator
 from contextlib import nullcontext
 from typing import Any
 
+from ros2cc_extract.extract.static.concurrency.accesses.web_servers import (
+    answers,
+    is_called_once,
+)
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.waits.loop_tasks import LoopTask, as_root
 from ros2cc_extract.extract.static.libraries.qt.handlers import handlers_of
@@ -40,25 +44,27 @@ def follow_handed(machine: RosInterpreter) -> None:
 
     Nor one that makes entities, which have not been followed as such.
     """
-    for value, function, place, name in _handed(machine):
+    for value, function, place, name, whose in _handed(machine):
         skip = 1 if isinstance(value, Bound) else 0
         is_partial = isinstance(value, Partial)
         call = Call(place) if is_partial else unknown_arguments(function, place, skip)
         state = ActivityState(ActivityKind.THREAD, place, value, call)
         _follow(machine, state, function, name)
         machine.world.handed_on.append((state, name))
+        if answers(name, whose):
+            machine.world.answering.add(id(state))
 
 
-def _handed(machine: RosInterpreter) -> Iterator[tuple[Value, Function, Place, str]]:
+def _handed(machine: RosInterpreter) -> Iterator[tuple[Value, Function, Place, str, str]]:
     seen = set[tuple[int, int]]()
     world = machine.world
     followed = _of_unknown_code(world)
     overriding = (
-        (handler, handler.function.place, base)
+        (handler, handler.function.place, base, '')
         for instance in world.instances
         for handler, base in handlers_of(instance)
     )
-    for value, place, name in (*world.handed[:MOST_CALLBACKS], *overriding):
+    for value, place, name, whose in (*world.handed[:MOST_CALLBACKS], *overriding):
         inner = value
         while isinstance(inner, Partial):
             inner = inner.function
@@ -70,7 +76,7 @@ def _handed(machine: RosInterpreter) -> Iterator[tuple[Value, Function, Place, s
         is_followed = id(function.node) in followed
         is_new = id(function.node) not in world.called
         if is_followed or (is_new and not may_make_entities(world, function.node)):
-            yield value, function, place, name
+            yield value, function, place, name, whose
 
 
 def _of_unknown_code(world: RosWorld) -> frozenset[int]:
@@ -80,8 +86,6 @@ def _of_unknown_code(world: RosWorld) -> frozenset[int]:
 
 
 _OTHERS = 'loop of code that is not scanned'
-_ONCE = ('startup', 'shutdown', 'cleanup', 'lifespan', 'on_event', 'contextmanager')
-"""What is in the names of what such code calls once."""
 
 
 def _is_coroutine(function: Function) -> bool:
@@ -104,7 +108,7 @@ def _follow(machine: RosInterpreter, state: ActivityState, function: Function, n
             machine.run_if_coroutine(machine.call(state.target, state.call), state.place)
         machine.store.close_branch(mark)
 
-    many = not any(word in name for word in _ONCE)
+    many = not is_called_once(name)
     task = LoopTask(function.name, _OTHERS, many=many) if _is_coroutine(function) else None
     with as_root(world, id(state), task) if task is not None else nullcontext():
         guarded(machine, follow, state.place)

@@ -222,7 +222,9 @@ class ConcurrentWorld(World):
     :param other_writes: data that is written by what no known code calls, with its name, or
         after the spin has ended, with ``None``.
     :param writes_beside: data that the set-up writes when it has started a thread, or has spun.
-    :param handed_on: functions that code which is not scanned has, as if each were a thread.
+    :param handed_on: functions that code which is not scanned has, as if each were a thread;
+        ``answering`` those of them, by identity, by which a web server answers.
+    :param servers: the threads that run web servers, and where.
     :param cleared: events that code clears: which and where, and how many entities there were.
     :param surely_cleared: the same of those that clear them on all their branches.
     :param by_loop: a loop of asyncio does what is followed, in its own thread.
@@ -346,6 +348,8 @@ class ConcurrentWorld(World):
     exit_hooks: list[tuple[Value, Call]] = field(default_factory=list)
     signal_handlers: list[ActivityState] = field(default_factory=list)
     handed_on: list[tuple[ActivityState, str]] = field(default_factory=list)
+    servers: list[tuple[int, Place]] = field(default_factory=list)
+    answering: set[int] = field(default_factory=set)
     main_takes: list[tuple[str, Place, int]] = field(default_factory=list)
     interruptible: set[int] = field(default_factory=set)
     kept_in: dict[Value, tuple[Heaped, str]] = field(default_factory=dict)

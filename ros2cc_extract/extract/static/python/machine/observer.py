@@ -148,6 +148,9 @@ class Observer:
     def note_unknown_call(self, function: Mystery, call: Call) -> None:
         """Something that could not be followed is called."""
 
+    def note_library_call(self, name: str, place: Place) -> None:
+        """A function of a library that no table has is called."""
+
     def give_away(self, value: Value, reason: str, place: Place) -> None:
         """Code that is not followed has ``value`` now."""
 

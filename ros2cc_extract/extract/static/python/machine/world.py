@@ -92,7 +92,8 @@ class World:
         serial number.
     :param skipped_if: of a branch, what has surely happened where it is not taken.
     :param called: every function that was followed, by the identity of its statement.
-    :param handed: functions that code which is not scanned has, where and by what name.
+    :param handed: functions that code which is not scanned has, where and by what name, and why
+        that code is not known.
     :param escaped_to_unknown: functions, by their text, that were followed as unknown code's, and
         ``called_later`` those that such functions were the first to call.
     :param subclasses: the direct ones of each class, in the order of their definition.
@@ -181,7 +182,7 @@ class World:
     decorated: list[Function] = field(default_factory=list)
     decorated_classes: list[Class] = field(default_factory=list)
     escaped: list[tuple[Value, Place]] = field(default_factory=list)
-    handed: list[tuple[Value, Place, str]] = field(default_factory=list)
+    handed: list[tuple[Value, Place, str, str]] = field(default_factory=list)
     escaped_to_unknown: set[int] = field(default_factory=set)
     called_later: set[int] = field(default_factory=set)
     instances: list[Instance] = field(default_factory=list)
