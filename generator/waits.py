@@ -67,14 +67,25 @@ def _waits_of(callback: Actor, spec: Spec) -> Iterator[NamedWait]:
     looked_into = [lock for lock in _taken_locks(callback) if lock in locks - kept]
     ends = tuple(wait for wait in others if _is_end(wait, callback))
     if len(ends) < len(signals):
-        # Whether it takes them before its signals is not known.
+        first = [lock for lock in looked_into if _is_before(lock, signals)]
         for lock in looked_into:
-            yield NamedWait(callback.name, WaitKind.LOCKED, lock=lock, may_skip=True, is_open=True)
+            # Whether it takes others before its signals is not known.
+            doubt = lock not in first
+            yield NamedWait(
+                callback.name, WaitKind.LOCKED, lock=lock, may_skip=doubt, is_open=doubt
+            )
+        looked_into = [lock for lock in looked_into if lock not in first]
     yield from _with_locks((wait for wait in others if wait not in ends), callback, locks)
     for lock in looked_into:
         yield NamedWait(callback.name, WaitKind.LOCKED, lock=lock)
     yield from ends
     yield from _with_locks(absent, callback, locks)
+
+
+def _is_before(lock: Lock, signals: Iterable[NamedWait]) -> bool:
+    """Whether the lock has surely been taken when the first of the signals comes."""
+    wakers = [signal.waker for signal in signals]
+    return all(waker is not None and lock.name in waker.passed for waker in wakers)
 
 
 def _is_end(wait: NamedWait, actor: Actor) -> bool:

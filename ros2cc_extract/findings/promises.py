@@ -13,17 +13,21 @@ from enum import Enum
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.answers_of_others import answers_assumed
 from ros2cc_extract.findings.base.model import Finding
-from ros2cc_extract.findings.base.rule import Context
-from ros2cc_extract.findings.races.handed_functions import races_with_others
+from ros2cc_extract.findings.base.rule import Context, Doer
+from ros2cc_extract.findings.base.wording import called
+from ros2cc_extract.findings.races.handed_functions import (
+    races_with_others,
+    races_with_threads_left,
+)
 from ros2cc_extract.findings.rules.deadlocks.never_ends import RULE as NEVER_ENDS
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
 from ros2cc_extract.findings.waits.verdicts import NODE_KEPT, PROGRESS, SELF_OVERLAP
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.light_dataclasses import dataclass
-from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import PAUSES
-from ros2cc_extract.spec.model import GroupType, Spec
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import OUTSIDE, PAUSES, TIME, WORKING_LOOP, Needs
+from ros2cc_extract.spec.model import ActivityKind, GroupType, Spec
 from ros2cc_extract.verify.results.load import LoadKind, Serving, demands_of, load_of
 from ros2cc_extract.verify.results.results import QueryResult, Verdict, Verification
 
@@ -146,7 +150,21 @@ class _Unit:
         """By what waits end that the unit itself does not end."""
         timed = [f for f in self.own if _breaks(f, Promise.WAITS) and self._is_timed(f)]
         alone = [f'one by its time-out alone ({f.code} at {_at(f)})' for f in timed]
-        return '; '.join(filter(None, [answers_assumed(self.unit), *alone]))
+        last = [
+            f'as long as the program gets to {_in_file(place)}, which ends that of {called(doer)}'
+            for doer in self._ended_last()
+            for place in (block.at_end for block in doer.blocking)
+            if place is not None
+        ]
+        return '; '.join(filter(None, [answers_assumed(self.unit), *alone, *dict.fromkeys(last)]))
+
+    def _ended_last(self) -> list[Doer]:
+        """The threads that stand still in the model until the program ends their waits."""
+        refuted = Verdict.NOT_SATISFIED
+        claims = (r for r in self.verification.results if r.family == PROGRESS)
+        stuck = {name for claim in claims if claim.verdict is refuted for name in claim.callbacks}
+        doers = Context(self.unit).doers
+        return [doer for doer in doers if doer.name in stuck and _is_ended_last(doer)]
 
     def _is_of_several(self, finding: Finding) -> bool:
         """Whether several units together stand still, as only their common model shows."""
@@ -157,7 +175,8 @@ class _Unit:
         """Give what keeps a promise from being proven, what concerns all promises first."""
         yield from self._gaps()
         for finding in self.near:
-            if _breaks(finding, promise):
+            is_noted = promise is Promise.RACES and finding.code in _CODES[promise]
+            if is_noted or _breaks(finding, promise):
                 yield f'{finding.code} at {_at(finding)}, which may concern it'
         for finding in own:
             if finding.code in _CODES[promise]:
@@ -171,6 +190,7 @@ class _Unit:
         if promise is Promise.RACES:
             yield from _copies(self.unit)
             yield from races_with_others(self.unit)
+            yield from races_with_threads_left(self.unit)
         if promise is Promise.SETTINGS:
             yield from self._without_effect()
 
@@ -199,8 +219,14 @@ class _Unit:
             yield f'the model refutes "{result.words}", and no rule explains it: see --verdicts'
 
     def _refuted(self, promise: Promise) -> Iterator[QueryResult]:
-        refuted = Verdict.NOT_SATISFIED
-        return (result for result in self._results(promise) if result.verdict is refuted)
+        """What has no good reason: a thread may wait until the program ends that, as others do."""
+        last = {doer.name for doer in self._ended_last()}
+        refuted = [r for r in self._results(promise) if r.verdict is Verdict.NOT_SATISFIED]
+        if promise is Promise.DEADLOCK and last and not any(self._refuted(Promise.WAITS)):
+            return
+        for result in refuted:
+            if result.family != PROGRESS or not last.issuperset(result.callbacks):
+                yield result
 
     def _results(self, promise: Promise) -> Iterator[QueryResult]:
         families = _FAMILIES[promise]
@@ -229,6 +255,21 @@ class _Unit:
                     yield result.reason or 'a limit was hit'
                 elif result.verdict is Verdict.SATISFIED:
                     yield 'no two callbacks ever run at the same time'
+
+
+def _is_ended_last(doer: Doer) -> bool:
+    """Whether the program ends each wait of it that may last, when its own spin is over."""
+    ended_by_others = {TIME, OUTSIDE}
+    lasting = [
+        block
+        for block in doer.blocking
+        if block.seconds is None
+        and block.call != WORKING_LOOP
+        and ended_by_others.isdisjoint(waker.by for waker in block.wakers)
+    ]
+    return bool(lasting) and all(
+        block.at_end is not None and block.needs is not Needs.ALL for block in lasting
+    )
 
 
 def _breaks(finding: Finding, promise: Promise) -> bool:
@@ -300,7 +341,7 @@ def about(
                 near.append(finding)
         elif finding.unit == unit.name:
             own.append(finding)
-        elif unit.entry is not None and named.entry == unit.entry and _names(finding, unit):
+        elif unit.entry is not None and named.entry == unit.entry and _names(finding, unit, named):
             near.append(finding)
     return own, near
 
@@ -310,11 +351,20 @@ def _leads_to(finding: Finding, unit: Spec) -> bool:
     return any(remark.place.file in unit.sources for remark in finding.related)
 
 
-def _names(finding: Finding, unit: Spec) -> bool:
-    return not {each.name for each in unit.callbacks}.isdisjoint(finding.subjects)
+def _names(finding: Finding, unit: Spec, named: Spec) -> bool:
+    """Whether it is about what ``unit`` runs; a note, of nothing that the other has as well."""
+    names = {each.name for each in unit.callbacks}
+    names |= {each.name for each in unit.activities if each.kind is not ActivityKind.MAIN}
+    if finding.severity is Severity.NOTE:
+        names -= {each.name for each in named.callbacks}
+        names -= {each.name for each in named.activities}
+    return not names.isdisjoint(finding.subjects)
 
 
 def _at(finding: Finding) -> str:
-    place = finding.place
+    return _in_file(finding.place)
+
+
+def _in_file(place: Place) -> str:
     name = place.file.rpartition('/')[2]
     return f'{name}:{place.line}' if place.line else name

@@ -8,14 +8,13 @@ from itertools import combinations
 
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Context, Doer, Hit
-from ros2cc_extract.findings.races.flag_locks import shared_by
-from ros2cc_extract.findings.races.races import LOSING, Race, RaceKind, races_across
+from ros2cc_extract.findings.races.flag_locks import shared_of_each
+from ros2cc_extract.findings.races.races import Race, RaceKind, races_across
 from ros2cc_extract.findings.races.shared_objects import node_classes, shared_part
-from ros2cc_extract.findings.rules.races import lost_update
+from ros2cc_extract.findings.rules.races import cleared_in_use, lost_update, unordered_write
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.model import Spec
+from ros2cc_extract.spec.model import Callback, Spec
 
-_REPORTED = (*LOSING, RaceKind.CHANGED_IN_LOOP, RaceKind.TORN, RaceKind.EMPTIED)
 _ADDED = '; their executors run at the same time, each in a thread of its own'
 
 
@@ -33,7 +32,11 @@ def _of_program(units: Sequence[Spec]) -> Iterator[Finding]:
     if not pairs:
         return
     classes = node_classes(units)
-    parts = {unit.name: tuple(_parts(unit, classes)) for unit in units}
+    shared = shared_of_each([Context(unit) for unit in units])
+    parts = {
+        unit.name: tuple(_parts(callbacks, classes))
+        for unit, callbacks in zip(units, shared, strict=True)
+    }
     doers = (
         (one, other)
         for first, second in pairs
@@ -41,12 +44,11 @@ def _of_program(units: Sequence[Spec]) -> Iterator[Finding]:
         for other in parts[second.name]
     )
     for race in races_across(doers):
-        if race.kind in _REPORTED:
-            yield from _finding(race, units[0])
+        yield from _finding(race, units[0])
 
 
-def _parts(unit: Spec, classes: frozenset[str] | None) -> Iterator[Doer]:
-    for callback in shared_by(Context(unit)):
+def _parts(callbacks: Sequence[Callback], classes: frozenset[str] | None) -> Iterator[Doer]:
+    for callback in callbacks:
         part = shared_part(callback, classes)
         if part.writes or part.pieces or part.reads:
             yield part
@@ -66,5 +68,9 @@ def _run_together(one: Spec, other: Spec) -> bool:
 
 def _finding(race: Race, unit: Spec) -> Iterator[Finding]:
     hit: Hit = lost_update.hit_of(race, _ADDED, lost_update.HELP_OUTSIDE_GROUPS)
-    rule = replace(lost_update.RULE, find=lambda _: iter((hit,)))
-    yield from rule.check(Context(unit))
+    rule = lost_update.RULE
+    if race.kind is RaceKind.LAST_WRITE_WINS:
+        rule = unordered_write.RULE
+    elif race.kind is RaceKind.CLEARED_IN_USE:
+        rule, hit = cleared_in_use.RULE, cleared_in_use.weighed(race, hit)
+    yield from replace(rule, find=lambda _: iter((hit,))).check(Context(unit))

@@ -284,9 +284,8 @@ def _promises(
     """An accepted finding breaks a promise all the same."""
     units = [task.unit for task in tasks]
     for task, each in zip(tasks, examined, strict=True):
-        of_others, near = about(findings, task.unit, units)
-        named = (finding for finding in of_others if finding.unit != task.unit.name)
-        own = (*each.findings, *named)
+        joint, near = about(findings, task.unit, units)
+        own = (*each.findings, *(finding for finding in joint if finding not in each.findings))
         verified = (each.judged, *each.elsewhere)
         yield weakest(judge(task.unit, verification, own, near) for verification in verified)
 

@@ -77,6 +77,7 @@ class Waker:
         then; ``None`` where its end, or what happens at its end, ends the wait.
     :param conditional: true where a branch may skip the operation.
     :param held: locks held at that operation, as of a ``Blocking``.
+    :param passed: locks that it has surely had to take before.
     """
 
     by: str
@@ -84,6 +85,7 @@ class Waker:
     after: int | None = None
     conditional: bool = False
     held: tuple[str, ...] = ()
+    passed: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,6 +120,8 @@ class Blocking:
         reads that pipe.
     :param answer_to: the topic of the message on which another process must answer, by a
         subscription, before the wait ends.
+    :param cleared_late: the topics of messages that are sent before an event is cleared, though
+        only what they bring sets it again.
     :param unsent: the topics whose messages end it, if the publishing code of this program
         does not run before.
     :param at_end: of a thread, where the program ends the wait when its spin is over.
@@ -149,6 +153,7 @@ class Blocking:
     assumed: str | None = None
     unread: str | None = None
     answer_to: str | None = None
+    cleared_late: str | None = None
     unsent: str | None = None
     at_end: Place | None = None
     repeats: bool = False
@@ -187,6 +192,7 @@ BEGINS = '…'
 
 FLAG = ' (flag)'
 ADDS, TAKES, TAKES_ANY, EMPTIES = 'adds', 'takes', 'takes any', 'empties'
+TAKES_NEXT, FILLS = 'takes next', 'fills'
 COPIED, BY_INDEX = 'a copy', 'by index'
 """How a collection is gone over without asking it for the next item each time."""
 CANCELS = 'cancel'
@@ -214,7 +220,8 @@ class Access:
     :param keeps_size: true for ``d[k] = v`` where the set-up has put in ``k``.
     :param moves: ``adds`` for one that puts in an item and takes none out, ``takes`` for one that
         takes a certain item out, ``takes any`` for one that takes out the next, and fails uncaught
-        where there is none, ``empties`` for one that takes out all.
+        where there is none, ``empties`` for one that takes out all. Of a queue, ``takes next`` for
+        one that fails or waits where there is none, ``fills`` where there is no room.
     :param iterates: class of the collection, where a loop goes over it; ``COPIED`` where all items
         are taken at once (``list(d)``), ``BY_INDEX`` where it counts through the indices.
     :param item: the one item that is meant, where its key or index is constant: ``'a'``, ``0``;

@@ -51,10 +51,14 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer look in a_default every 1
+#     reads narrow @38
+#     writes narrow update in_place rests @39
 #   subscription on_in in a_default key=in
 #     blocks Queue.put on narrow through narrow (room) each initial=1 @27
 #       ended by look @39
 #       ended by ?
+#     writes orders update in_place @26
+#     writes narrow update in_place @27
 #     locks filled @23
 #   service take in a_default key=take
 #     blocks Condition.wait on on_in through filled each forgets @31
@@ -63,4 +67,7 @@ if __name__ == '__main__':
 #       ended by on_in conditional @26
 #     blocks Queue.get on on_in through orders each 0.5 s @33
 #       ended by on_in conditional @26
+#     writes orders update in_place @32
+#     writes orders update in_place @33
+#     writes orders update in_place @34
 #     locks filled @30

@@ -59,6 +59,7 @@ if __name__ == '__main__':
 #       ended by on_in @26
 #     blocks Queue.get on orders each initial=1 @35
 #       ended by ?
+#     writes orders update in_place @35
 #     locks places @32
 #   timer listen in a_default every 1
 #     blocks wait_for_message on out @38

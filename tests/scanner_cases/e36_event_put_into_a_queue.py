@@ -33,3 +33,4 @@ if __name__ == '__main__':
 #   timer ask in a_default every 1
 #     blocks Event.wait on done @19
 #       ended by ?
+#     writes jobs update in_place @18

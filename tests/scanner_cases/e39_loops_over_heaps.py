@@ -39,4 +39,4 @@ if __name__ == '__main__':
 #     reads A.due @22
 #     reads A.due item 0 @22
 #     reads A.due @23
-#     writes A.due update in_place @23
+#     writes A.due update in_place rests later @23

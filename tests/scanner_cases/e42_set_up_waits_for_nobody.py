@@ -48,6 +48,7 @@ if __name__ == '__main__':
 # unit station: SingleThreadedExecutor x1 rclpy.spin_until_future_complete, main
 #   group station_default EXCLUSIVE default
 #   timer on_train in station_default every 0.3
+#     writes trains update in_place @24
 # error nobody-spins @37
 # error nobody-spins @38
 # warning nobody-spins @40

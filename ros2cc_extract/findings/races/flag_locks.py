@@ -34,19 +34,22 @@ def shared_by(context: Context) -> tuple[Callback, ...]:
     return as_shared(context.written, context)
 
 
-def as_shared(doers: tuple[_Doer, ...], context: Context) -> tuple[_Doer, ...]:
+def shared_of_each(contexts: Sequence[Context]) -> tuple[tuple[Callback, ...], ...]:
+    """The same of several units that run at the same time: a flag of one is one for all."""
+    return tuple(as_shared(context.written, *contexts) for context in contexts)
+
+
+def as_shared(doers: tuple[_Doer, ...], *contexts: Context) -> tuple[_Doer, ...]:
     """
     Callbacks, or threads, with their accesses as flags leave them.
 
     A flag that keeps others out stands among the locks and is no shared data itself; any other
     is shared data and no lock.
     """
-    everybody: tuple[Callback | Activity, ...] = (*context.written, *context.unit.activities)
-    flags = {lock for one in everybody for access in _accesses(one) for lock in access.locks}
-    flags = {lock for lock in flags if lock.endswith(FLAG)}
+    flags = _flags_of(contexts)
     if not flags:
         return doers
-    kept = {flag.removesuffix(FLAG) for flag in flags if _keeps_out(flag, context)}
+    kept = {flag.removesuffix(FLAG) for flag in flags if _keeps_out(flag, contexts)}
     return tuple(
         replace(
             doer,
@@ -56,6 +59,14 @@ def as_shared(doers: tuple[_Doer, ...], context: Context) -> tuple[_Doer, ...]:
         )
         for doer in doers
     )
+
+
+def _flags_of(contexts: Iterable[Context]) -> set[str]:
+    everybody: list[_Use] = []
+    for context in contexts:
+        everybody += [*context.written, *context.unit.activities]
+    locks = {lock for one in everybody for access in _accesses(one) for lock in access.locks}
+    return {lock for lock in locks if lock.endswith(FLAG)}
 
 
 def _accesses(callback: Callback | Activity) -> tuple[Access, ...]:
@@ -77,16 +88,14 @@ def _judged(accesses: Iterable[Access], kept: set[str]) -> tuple[Access, ...]:
     )
 
 
-def _keeps_out(flag: str, context: Context) -> bool:
+def _keeps_out(flag: str, contexts: Sequence[Context]) -> bool:
     """Whether all that write it hold it, and one by one find it down."""
     name = flag.removesuffix(FLAG)
-    everybody: tuple[Callback | Activity, ...] = (
-        *context.unit.callbacks,
-        *context.unit.activities,
-    )
-    uses = [(one, write) for one in everybody for write in one.writes if write.name == name]
+    of_each = [_writes_of(name, context) for context in contexts]
+    writing = [context for context, found in zip(contexts, of_each, strict=True) if found]
+    uses = [use for found in of_each for use in found]
     answers = [(one, write) for one, write in uses if flag not in write.locks]
-    if not _answer_in_turn(answers, context):
+    if answers and not (len(writing) == 1 and _answer_in_turn(answers, writing[0])):
         return False
     uses = [use for use in uses if use not in answers]
     setters = [(one, write) for one, write in uses if write.rests]
@@ -103,13 +112,22 @@ def _keeps_out(flag: str, context: Context) -> bool:
         # What one of them stores is for another no sign to stay away.
         return False
     if not setters:
-        return _is_put_up_in_turn(context.unit.executor)
-    groups = {
-        context.exclusive_group(one) if isinstance(one, Callback) else None for one, _ in setters
-    }
-    if len(groups) == 1 and None not in groups:
+        return len(contexts) == 1 and _is_put_up_in_turn(contexts[0].unit.executor)
+    if len(writing) == 1 and _is_of_one_group(setters, writing[0]):
         return True
     return bool(frozenset.intersection(*(_locks_of(*setter) for setter in setters)))
+
+
+def _writes_of(name: str, context: Context) -> list[tuple[_Use, Access]]:
+    everybody: tuple[_Use, ...] = (*context.unit.callbacks, *context.unit.activities)
+    return [(one, write) for one in everybody for write in one.writes if write.name == name]
+
+
+def _is_of_one_group(uses: Sequence[tuple[_Use, Access]], context: Context) -> bool:
+    groups = {
+        context.exclusive_group(one) if isinstance(one, Callback) else None for one, _ in uses
+    }
+    return len(groups) == 1 and None not in groups
 
 
 def _answer_in_turn(uses: Sequence[tuple[_Use, Access]], context: Context) -> bool:

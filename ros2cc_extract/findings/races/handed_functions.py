@@ -1,4 +1,9 @@
-"""What callbacks and functions that code which is not scanned may call do to each other's data."""
+"""
+What callbacks do to the data of code of which it is not known when it runs.
+
+Functions that code which is not scanned may call, handlers of signals, and threads of the run
+before.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +11,13 @@ from collections.abc import Iterator
 
 from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.base.wording import called
-from ros2cc_extract.findings.races.flag_locks import shared_by
+from ros2cc_extract.findings.races.flag_locks import as_shared, shared_by
 from ros2cc_extract.findings.races.races import RaceKind, races_across
-from ros2cc_extract.findings.waits.concurrent_threads import is_of_a_loop
+from ros2cc_extract.findings.waits.concurrent_threads import (
+    is_of_a_loop,
+    leaves_behind,
+    sharing,
+)
 from ros2cc_extract.spec.model import Activity, ActivityKind, Spec
 
 _HARMLESS = (RaceKind.WHOLE_UPDATE, RaceKind.LAST_WRITE_WINS)
@@ -39,6 +48,25 @@ def _is_same(handed: Activity, doer: Doer) -> bool:
     """Whether it is what is known of it beside: that a web server runs it on a thread."""
     is_code = isinstance(doer, Activity) and doer.function == handed.function
     return is_code and doer.source == handed.source
+
+
+def races_with_threads_left(unit: Spec) -> Iterator[str]:
+    """
+    Say where a callback may meet the thread that its run before has started.
+
+    What it does before the start is in order with the thread of this run, not with that one.
+    """
+    context = Context(unit)
+    threads = as_shared(sharing(context), context)
+    for callback in shared_by(context):
+        left = [each for each in threads if leaves_behind(callback, each)]
+        for race in races_across((callback, each) for each in left):
+            if race.kind not in _HARMLESS:
+                thread = next(u.doer for u in (race.first, *race.others) if u.doer is not callback)
+                yield (
+                    f'{called(thread)} may still run when {called(callback)} starts it once more, '
+                    f'and both use {race.names[0]}'
+                )
 
 
 def _take_turns(handed: Activity, doer: Doer) -> bool:

@@ -20,11 +20,23 @@ from ros2cc_extract.findings.races.critical_sections import (
     waits,
 )
 from ros2cc_extract.findings.races.uses import Use, are_unordered, may_meet
-from ros2cc_extract.spec.effects import ADDS, BY_INDEX, EMPTIES, TAKES, TAKES_ANY
+from ros2cc_extract.spec.effects import (
+    ADDS,
+    BY_INDEX,
+    EMPTIES,
+    FILLS,
+    TAKES,
+    TAKES_ANY,
+    TAKES_NEXT,
+)
 from ros2cc_extract.spec.program_order import steps
 
 _NOTICING = frozenset({'dict', 'set', 'deque'})
-_FEWER = frozenset({TAKES, TAKES_ANY, EMPTIES})
+_FEWER = frozenset({TAKES, TAKES_ANY, TAKES_NEXT, EMPTIES})
+_TAKING = _FEWER - {EMPTIES}
+_MORE = frozenset({ADDS, FILLS})
+_RIVALS = {TAKES_ANY: _FEWER, TAKES_NEXT: _FEWER, FILLS: _MORE}
+"""What brings that about in which an operation fails, or waits."""
 
 
 def changed_in_loop(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
@@ -77,19 +89,36 @@ def shrunk_in_loop(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
 
 
 def taken_in_between(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
-    """Items that one takes because it has found some and waited, while the other takes some."""
+    """
+    Items that one takes because it has found some and waited, while the other takes some.
+
+    Or puts in because there was room. A queue may do others' work between a question and that.
+    """
     for finder, taker in ((one, other), (other, one)):
-        for take in (write for write in finder.writes if write.moves == TAKES_ANY and write.rests):
+        for take in (write for write in finder.writes if write.moves in _RIVALS and write.rests):
             look = read_for(take, finder)
-            if look is None or not waits(look, take, finder):
+            if look is None or (take.moves == TAKES_ANY and not waits(look, take, finder)):
                 continue
+            rivals = _RIVALS[take.moves or '']
             held = kept_between(look, take, finder)
             yield from (
                 (Use(finder, take), Use(taker, write))
                 for write in taker.writes
                 if write.name == take.name
-                and write.moves in _FEWER
+                and write.moves in rivals
                 and (take.item is None or is_same_item(take, write))
                 and not keep_apart(held, write.locks)
                 and are_unordered(Use(finder, take), Use(taker, write))
             )
+
+
+def leaves_enough(first: Use, second: Use) -> bool:
+    """
+    Code that takes an item out because there is one finds one, if others only put items in.
+
+    So does code that puts one in because there is room, if they only take some out.
+    """
+    mine, other = first.access.moves, second.access.moves
+    if mine == FILLS:
+        return other in _FEWER
+    return mine in _TAKING and other in _MORE

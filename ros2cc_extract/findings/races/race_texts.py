@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ros2cc_extract.findings.base.wording import called, listing
 from ros2cc_extract.findings.races.races import Race, RaceKind
+from ros2cc_extract.spec.effects import FILLS, TAKES_NEXT
 from ros2cc_extract.spec.releases.table import NO_GLOBAL_LOCK
 
 IN_ONE_PIECE = (
@@ -33,8 +34,7 @@ def describe(race: Race) -> str:
         'put something in before that: it is lost',
         RaceKind.SHRUNK_IN_LOOP: f'{first} goes over {names} by index, and {others} may take '
         'items out meanwhile: Python raises IndexError in the loop',
-        RaceKind.TAKEN: f'{first} finds an item in {names} and then takes one out, and {others} '
-        'may take the last one in between: then it raises an exception',
+        RaceKind.TAKEN: _taken(race, first, names, others),
         RaceKind.OVERWRITTEN: f'{first} writes {names}, waits and reads {it} back, and {others} '
         f'may write {it} in between: then it gets what was meant for the other',
         RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
@@ -50,6 +50,20 @@ def describe(race: Race) -> str:
         RaceKind.LAST_WRITE_WINS: f'{first} and {others} may write {names} at the same time: the '
         'last one wins',
     }[race.kind]
+
+
+def _taken(race: Race, first: str, names: str, others: str) -> str:
+    moves = race.first.access.moves
+    if moves == FILLS:
+        return (
+            f'{first} finds room in {names} and then puts an item in, and {others} may take the '
+            'last room in between: then it raises an exception, or waits'
+        )
+    or_waits = ', or waits' if moves == TAKES_NEXT else ''
+    return (
+        f'{first} finds an item in {names} and then takes one out, and {others} may take the last '
+        f'one in between: then it raises an exception{or_waits}'
+    )
 
 
 def _is_sent(race: Race) -> bool:

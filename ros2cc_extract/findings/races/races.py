@@ -42,6 +42,7 @@ from ros2cc_extract.findings.races.lifecycle import comes_before
 from ros2cc_extract.findings.races.loops_over_data import (
     changed_in_loop,
     emptied,
+    leaves_enough,
     shrunk_in_loop,
     taken_in_between,
 )
@@ -58,7 +59,7 @@ from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.identity_memo import once
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import ADDS, FOUND_FALSE, FOUND_NONE, TAKES, TAKES_ANY, Act
+from ros2cc_extract.spec.effects import FOUND_FALSE, FOUND_NONE, Act
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.program_order import steps
 from ros2cc_extract.verify.results.evidence import Evidence
@@ -359,7 +360,7 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
         if is_wanted and _is_read_before(first, second):
             return RaceKind.CHECK_THEN_ACT, first, second
     for first, second in ((one, other), (other, one)):
-        is_wanted = first.access.in_place and not _leaves_enough(first, second)
+        is_wanted = first.access.in_place and not leaves_enough(first, second)
         if is_wanted and _is_read_before(first, second) and first.access.rests:
             return RaceKind.CHECK_THEN_CHANGE, first, second
     for first, second in ((one, other), (other, one)):
@@ -405,11 +406,6 @@ def _is_old_item(first: Use, second: Use) -> bool:
         and is_same_item(write, second.access)
         and any(is_same_item(read, write) for _, read in reads_of(first.doer).get(write.name, ()))
     )
-
-
-def _leaves_enough(first: Use, second: Use) -> bool:
-    """Code that takes an item out because there is one finds one, if others only put items in."""
-    return first.access.moves in (TAKES, TAKES_ANY) and second.access.moves == ADDS
 
 
 def _leaves_as_found(first: Use, second: Use) -> bool:

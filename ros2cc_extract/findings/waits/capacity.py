@@ -82,12 +82,13 @@ def can_overlap_itself(callback: Callback, context: Context) -> bool:
     group runs once per task, but a server makes one per goal.
     """
     group = context.group_of(callback)
-    if group.unresolved is not None or _runs_once(callback):
+    if group.unresolved is not None or runs_once(callback):
         return False
     return context.exclusive_group(callback) is None
 
 
-def _runs_once(callback: Callback) -> bool:
+def runs_once(callback: Callback) -> bool:
+    """Whether its entity runs it a single time."""
     is_one_shot = callback.one_shot and not cancels_too_late(callback)
     return is_one_shot or is_made_once(callback)
 

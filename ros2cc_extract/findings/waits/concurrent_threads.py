@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ros2cc_extract.findings.base.rule import Context, Doer
+from ros2cc_extract.findings.waits.capacity import runs_once
 from ros2cc_extract.findings.waits.overlap import overlap, overlaps_itself
 from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.findings.waits.workers import workers_of
@@ -65,6 +66,18 @@ def repeats(thread: Activity) -> bool:
     return is_several and is_plain and not by_itself and not thread.conditional
 
 
+def leaves_behind(callback: Callback, thread: Activity) -> bool:
+    """
+    Whether each run of ``callback`` starts the thread, which the next run may find still at work.
+
+    Where a branch leads to the start, that may be because the one before has ended.
+    """
+    starts = [start for start in thread.starts if start.by == callback.name]
+    is_sure = any(not start.conditional and start.after is not None for start in starts)
+    is_joined = any(_joins(block, thread) for block in callback.blocking)
+    return is_sure and not is_joined and not runs_once(callback)
+
+
 def repeats_freely(thread: Activity, context: Context) -> bool:
     """Whether several run at once; code that starts one and joins it has only one at a time."""
     holder = _holder(thread, context)
@@ -103,8 +116,8 @@ def _take_turns(one: Activity, other: Activity) -> bool:
 
 
 def is_of_a_loop(thread: Activity) -> bool:
-    """Whether it is a coroutine, which shares its thread with the others of its loop."""
-    return any(kind_of(block) is WaitKind.AWAIT for block in thread.blocking)
+    """Whether a loop runs it, which does all that it runs on one thread."""
+    return thread.on_loop or any(kind_of(block) is WaitKind.AWAIT for block in thread.blocking)
 
 
 def _follow_each_other(one: Activity, other: Activity) -> bool:

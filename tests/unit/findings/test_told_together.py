@@ -149,3 +149,20 @@ def test_an_unknown_wait_is_called_by_its_call(reason: str, told: str) -> None:
     wait = Blocking(call=UNKNOWN_WAIT, source=at(10), escapes=Unknown(reason))
     (finding,) = findings(unit(threads(2), timer('tick', blocking=(wait,))), 'CC120')
     assert finding.message == f'not decided: {told}'
+
+
+def slept(*callbacks: Callback) -> list[str]:
+    return [each.message for each in findings(unit(ONE_THREAD, *callbacks), 'CC201')]
+
+
+def test_two_services_of_one_function_that_sleeps() -> None:
+    sleep = (Blocking(call='time.sleep', source=at(20), seconds=2.0),)
+    both = [
+        replace(service(name, blocking=sleep), function='node.on_list')
+        for name in ('list', 'list_too')
+    ]
+    other = service('on_go')
+    begin = 'on_list sleeps 2 s and holds the only thread of the SingleThreadedExecutor: '
+    end = ' and the parameter services of the node wait that long'
+    assert slept(*both, other) == [f'{begin}on_go{end}']
+    assert slept(*both) == [f'{begin}on_list{end}']

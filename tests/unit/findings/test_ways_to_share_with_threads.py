@@ -156,6 +156,27 @@ WAYS: dict[str, dict[str, str]] = {
             '        await asyncio.sleep(0.1)\n'
         ),
     },
+    'call_soon': {
+        'init': (
+            'self.l = asyncio.new_event_loop()\n'
+            'threading.Thread(target=self.l.run_forever, daemon=True).start()\n'
+            'self.l.call_soon_threadsafe(self.change, 1)\n'
+        ),
+    },
+    'task_of_loop': {
+        'init': (
+            'self.l = asyncio.new_event_loop()\n'
+            'threading.Thread(target=self.l.run_forever, daemon=True).start()\n'
+            'self.l.call_soon_threadsafe(lambda: self.l.create_task(self.co()))\n'
+        ),
+        'more': 'async def co(self):\n    self.change(1)',
+    },
+    'initializer': {
+        'init': (
+            'self.p = concurrent.futures.ThreadPoolExecutor(initializer=self.once)\n'
+            'self.p.submit(print, 1)\n'
+        ),
+    },
     'main_beside': {
         'run': (
             'threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()\nnode.loop()\n'
@@ -239,6 +260,21 @@ WAYS: dict[str, dict[str, str]] = {
         'before': (
             'class Handler(http.server.BaseHTTPRequestHandler):\n'
             '    node = None\n'
+            '    def do_GET(self):\n'
+            '        self.node.change(1)\n'
+        ),
+    },
+    'http_partial': {
+        'init': (
+            'handler = functools.partial(Handler, self)\n'
+            'self.s = http.server.HTTPServer(("", 8000), handler)\n'
+            'threading.Thread(target=self.s.serve_forever).start()\n'
+        ),
+        'before': (
+            'class Handler(http.server.BaseHTTPRequestHandler):\n'
+            '    def __init__(self, node, *args):\n'
+            '        self.node = node\n'
+            '        super().__init__(*args)\n'
             '    def do_GET(self):\n'
             '        self.node.change(1)\n'
         ),

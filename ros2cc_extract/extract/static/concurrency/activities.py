@@ -42,9 +42,9 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
     caught, world.caught = world.caught, ()
     loop, by_loop, depth = world.loop, world.by_loop, world.thread_depth
     task, world.loop_task = world.loop_task, None
-    world.by_loop, world.thread_depth = False, len(machine.stack)
+    world.thread_depth = len(machine.stack)
     if not (isinstance(world.activity, ActivityState) and world.activity.on_loop):
-        world.loop = None
+        world.loop, world.by_loop = None, False
     world.threads += 1
     world.thread = world.threads
     world.in_thread, world.effects, world.held, world.chain = True, None, (), ()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses import (
@@ -22,20 +21,25 @@ from ros2cc_extract.extract.static.concurrency.accesses.held_locks import (
     lock_of,
     taking_of,
 )
-from ros2cc_extract.extract.static.concurrency.waits import values_during_waits
+from ros2cc_extract.extract.static.concurrency.accesses.holders import data_kinds, loose_data
+from ros2cc_extract.extract.static.concurrency.waits import outside_waits, values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, is_main, touch
 from ros2cc_extract.extract.static.program.text_queries import (
-    cleared_attributes,
-    reassigned_attributes,
     unmangled,
 )
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, Looked
-from ros2cc_extract.extract.static.python.machine.world import RECENT, AccessKind, note_once
+from ros2cc_extract.extract.static.python.machine.world import (
+    ITSELF,
+    RECENT,
+    AccessKind,
+    note_once,
+)
 from ros2cc_extract.extract.static.python.objects.element_keys import note_item
 from ros2cc_extract.extract.static.python.values.containers import (
     Collection,
+    Fields,
     collection_class,
 )
 from ros2cc_extract.extract.static.python.values.values import (
@@ -81,6 +85,7 @@ class Effects(Waits):
         if self.world.effects.looked is not None:
             self._note_look(self.world.effects.looked, owner, name, place)
         if not isinstance(owner, (Instance, Class)):
+            self._note_loose(owner, name, kind, place)
             return
         if self.world.activity is not None and isinstance(owner, Instance):
             touch(self.world.activity, owner)
@@ -98,6 +103,12 @@ class Effects(Waits):
         elif not is_own:
             self._note_access(shown, kind, place, attribute)
 
+    def _note_loose(self, owner: Value, name: str, kind: AccessKind, place: Place) -> None:
+        """An attribute of a module, of a function, or of an object that is not scanned."""
+        shown = loose_data.shown(self.world, owner, name, is_read=kind is AccessKind.READ)
+        if shown is not None and kind is not AccessKind.WITHIN:
+            self._note_access(shown, kind, place, name)
+
     def _note_look(self, looked: Looked, owner: Value, name: str, place: Place) -> None:
         """A test of a loop asks for an attribute, perhaps of what others may change."""
         if isinstance(owner, Mystery) and owner.unknown in self.world.outside_objects:
@@ -112,7 +123,7 @@ class Effects(Waits):
     def _seen_at(self, home: collection_aliases.Home) -> str:
         """Note the first holder of a collection: code that touches one touches the other."""
         owner, shown = home
-        if self.world.activity is not None:
+        if self.world.activity is not None and isinstance(owner, Instance):
             touch(self.world.activity, owner)
         return shown
 
@@ -130,6 +141,10 @@ class Effects(Waits):
             shown = f'{whose}.{unmangled(name, owner.cls.name)}'
             collection_aliases.note_held(self.world, owner, name, value, shown)
             torn_updates.note_held(self.world, owner, name, value, shown)
+        elif isinstance(owner, (Function, Module)):
+            loose_data.note_held(self.world, owner, name, value)
+        elif isinstance(owner, Mystery):
+            loose_data.note_member(self.world, owner, name, value)
 
     def _note_other_write(self, owner: Value, name: str, place: Place) -> None:
         """Code without a known caller, or that runs after the spin, writes an attribute."""
@@ -143,6 +158,7 @@ class Effects(Waits):
         is_late = world.when is When.LATER or world.after_spin
         if not (is_late or world.is_beside_others):
             return
+        outside_waits.note_write(world, shown)
         function = self.stack[0].name if self.stack else ''
         by = function if world.when is When.LATER else None
         if is_late:
@@ -163,8 +179,11 @@ class Effects(Waits):
         at = place, attribute or name.rpartition('.')[2]
         is_content = kind is AccessKind.UPDATE_IN_PLACE
         flows = name in reading.flowing
-        chosen = is_content and (flows or name in reading.choices.get(at, ()))
+        is_computed = flows or name in reading.choices.get(at, ())
+        is_computed = is_computed or not self.world.given_from.isdisjoint((name, ITSELF))
+        chosen = is_content and is_computed
         is_tested = reading.governs(name, self.world.path)
+        is_tested = is_tested or (is_content and reading.leads_to(name, self.world.path))
         rests = is_tested or flows or chosen
         is_used = rests and is_read and at in reading.used
         # What is imported is the same each time, whatever was found before.
@@ -183,7 +202,7 @@ class Effects(Waits):
             and not is_read
             and reading.is_in_one_piece(name, self.world.path),
             keeps_size=self.world.refilling,
-            moves=EMPTIES if _is_emptied(kind, reading.stored) else self.world.moves,
+            moves=EMPTIES if data_kinds.is_emptied(kind, reading.stored) else self.world.moves,
             iterates=self.world.iterating,
             item=item,
             chosen=chosen,
@@ -191,7 +210,7 @@ class Effects(Waits):
             compared=is_read and at in reading.compared,
             later=self._is_late(name, is_used=is_used or (is_content and is_tested), kind=kind),
             clears=is_stored and reading.stored == NONE,
-            lowers=is_stored and reading.stored != NONE and _is_false(reading.stored),
+            lowers=is_stored and reading.stored != NONE and data_kinds.is_false(reading.stored),
             found=reading.found_of(name, self.world.path) if is_stored else None,
             constant=is_stored and rests and isinstance(reading.stored, Const),
             joins=joins,
@@ -254,7 +273,9 @@ class Effects(Waits):
         if self.world.effects is None:
             return
         place = frame.place(target)
-        if isinstance(target, ast.Subscript):
+        if isinstance(target, ast.Subscript) and isinstance(target.value, ast.Call):
+            self._note_field(target, frame, kind)
+        elif isinstance(target, ast.Subscript):
             note_item(self, target.value, target.slice, frame)
             self.note_update(target.value, frame, kind)
         elif isinstance(target, ast.Attribute):
@@ -273,9 +294,26 @@ class Effects(Waits):
         elif isinstance(target, ast.Name):
             self._note_variable(target, frame, kind)
 
+    def _note_field(self, target: ast.Subscript, frame: Frame, kind: AccessKind) -> None:
+        """``vars(self)['n']``, ``globals()['n']``: one attribute or variable, by its name."""
+        noted, self.world.effects = self.world.effects, None
+        held = self.evaluate(target.value, frame)
+        self.world.effects = noted
+        key, place = target.slice, frame.place(target)
+        name = str(key.value) if isinstance(key, ast.Constant) else '…'
+        if isinstance(held, Fields):
+            self.note_attribute(held.owner, name, kind, place)
+        elif ast.unparse(target.value) == 'globals()':
+            is_whole = kind is not AccessKind.UPDATE_IN_PLACE
+            changed = kind if is_whole else AccessKind.WRITE
+            self._note_access(f'{frame.module.name}.{name}', changed, place, name)
+        else:
+            note_item(self, target.value, target.slice, frame)
+            self.note_update(target.value, frame, kind)
+
     def _note_variable(self, target: ast.Name, frame: Frame, kind: AccessKind) -> None:
         """A local name stands for what an attribute holds, or is shared with inner functions."""
-        place, owner = frame.place(target), _owner_of(target.id, frame)
+        place, owner = frame.place(target), closure_cells.owner_of(target.id, frame)
         is_known = self._note_given(target, target.id, frame, kind)
         if owner is not None and not is_known:
             self.note_cell(owner, target.id, kind, place)
@@ -295,7 +333,7 @@ class Effects(Waits):
         return bool(homes)
 
     def _is_global(self, name: str, frame: Frame) -> bool:
-        return _owner_of(name, frame) is None and name in frame.module.slots
+        return closure_cells.owner_of(name, frame) is None and name in frame.module.slots
 
     def _is_behaviour(
         self, owner: Instance | Class, name: str, kind: AccessKind, place: Place
@@ -311,10 +349,10 @@ class Effects(Waits):
             ]
             if not held:
                 is_stored = kind in (AccessKind.WRITE, AccessKind.UPDATE)
-                return not is_stored and not _is_assigned(cls, name)
+                return not is_stored and not data_kinds.is_assigned(cls, name)
             is_code = isinstance(held[0], (Function, Native, Class))
             return is_code or self.special_method(held[0], '__get__', place) is not None
-        if _is_taken_away(owner, name):
+        if data_kinds.is_taken_away(owner, name):
             return False
         return any(
             isinstance(option, (Bound, Function, Native, Class))
@@ -335,13 +373,20 @@ class Effects(Waits):
         options = [o for o in options_of(value) if o != NONE] if isinstance(value, Value) else []
         if options and all(isinstance(option, _CODE) for option in options):
             return
-        self._note_access(f'{module.name}.{name}', kind, place)
+        home = self.world.homes.get(value) if kind in _OF_CONTENT else None  # type: ignore[arg-type]
+        shown = f'{module.name}.{name}' if home is None else self._seen_at(home)
+        self._note_access(shown, kind, place, name)
 
     def note_cell(self, scope: Scope, name: str, kind: AccessKind, place: Place) -> None:
         """A variable is touched; what is made in this run is shared only with later code."""
         world, effects = self.world, self.world.effects
         shown = closure_cells.shown_cell(world, scope, name)
         if shown is None:
+            home = (
+                loose_data.home_of_local(world, scope, name) if kind is AccessKind.READ else None
+            )
+            if home is not None:
+                self._note_access(home, kind, place, name)
             return
         is_own = effects is not None and scope.born is effects
         if effects is None:
@@ -378,6 +423,8 @@ class Effects(Waits):
                 lost_notifications.begin_hold(self.world, name)
                 if self.world.effects is not None:
                     note_once(self.world.effects.locks, act)
+                    if self.world.path == self.world.callback_path and not may_fail:
+                        self.world.effects.taken[name] = None
                 self._note_in_main(name, place)
 
     def _note_in_main(self, name: str, place: Place) -> None:
@@ -418,7 +465,7 @@ class Effects(Waits):
 
     def note_lock_method(self, owner: Value, name: str) -> None:
         """``owner.acquire…`` or ``release…`` of a class of the program that holds a lock."""
-        if not isinstance(owner, Instance) or not _holds_lock(owner):
+        if not isinstance(owner, Instance) or not data_kinds.holds_lock(owner):
             return
         lock = self.lock_name(owner, owner.class_name)
         if name.startswith(('acquire', '__enter__')):
@@ -445,52 +492,5 @@ def _note_closer(accesses: list[Access], access: Access) -> None:
     note_once(accesses, access)
 
 
-def _owner_of(name: str, frame: Frame) -> Scope | None:
-    """The function whose variable the name means."""
-    scope: Scope | None = frame.scope
-    while scope is not None:
-        if name in scope.slots and name not in scope.global_names:
-            return scope
-        scope = scope.parent
-    return None
-
-
-def _is_emptied(kind: AccessKind, stored: Value | None) -> bool:
-    """``self.rows = []``: nothing of what was in it is left."""
-    if kind is not AccessKind.WRITE or not isinstance(stored, Collection):
-        return False
-    return not any(stored.slots.get(name) for name in ('items', 'entries', 'open'))
-
-
-def _is_false(stored: Value | None) -> bool:
-    return isinstance(stored, Const) and not stored.value
-
-
 def _is_semaphore(value: Instance) -> bool:
     return isinstance(value.state, PlainState) and value.state.kind == 'semaphore'
-
-
-def _holds_lock(owner: Instance) -> bool:
-    return owner.state is None and any(
-        isinstance(option, Instance)
-        and isinstance(option.state, PlainState)
-        and option.state.kind in _LOCKS
-        for held in owner.slots.values()
-        if isinstance(held, Value)
-        for option in options_of(held)
-    )
-
-
-def _is_assigned(cls: Value | None, name: str) -> bool:
-    """Whether a method assigns the attribute that was not made yet."""
-    return any(name in reassigned_attributes(base.node) for base in _classes(cls))
-
-
-def _is_taken_away(owner: Value, name: str) -> bool:
-    """Whether a method stores ``None`` where an entity, a lock or a function may be."""
-    cls = owner.cls if isinstance(owner, Instance) else owner
-    return any(name in cleared_attributes(base.node) for base in _classes(cls))
-
-
-def _classes(cls: Value | None) -> Iterator[Class]:
-    return (base for base in getattr(cls, 'mro', ()) if isinstance(base, Class))

@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     lost_notifications,
     torn_state,
     torn_updates,
+    unreleased_locks,
     web_servers,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
@@ -35,13 +36,16 @@ from ros2cc_extract.extract.static.program.text_queries import is_recursion
 from ros2cc_extract.extract.static.python.machine.dependences import Asked
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.path_facts import Implied
+from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects.escape import reached
+from ros2cc_extract.extract.static.python.values.containers import Generator
 from ros2cc_extract.extract.static.python.values.values import (
     Call,
     Coroutine,
     Instance,
     Mystery,
     Value,
+    options_of,
 )
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import BY_INDEX, COPIED
@@ -86,12 +90,24 @@ class Notes(Effects):
         rows = iterations.taken_at_once(function, node)
         if rows is not None:
             self.note_iteration(rows, frame, COPIED)
+        self._note_step(iterations.stepped(function, node), frame)
+
+    def _note_step(self, generator: ast.expr | None, frame: Frame) -> None:
+        """A generator goes on from where it was: it cannot be entered by two at once."""
+        if self.world.effects is None or not isinstance(generator, (ast.Attribute, ast.Name)):
+            return
+        noted, self.world.effects = self.world.effects, None
+        values = options_of(self.evaluate(generator, frame))
+        self.world.effects = noted
+        if any(isinstance(value, Generator) for value in values):
+            self.note_update(generator, frame, AccessKind.UPDATE)
 
     def note_for(self, node: ast.For | ast.AsyncFor, frame: Frame) -> None:
         """It goes over a collection, itself or by its indices."""
         if isinstance(node, ast.AsyncFor):
             self.note_suspended(frame.place(node.iter))
         self.note_iteration(node.iter, frame)
+        self._note_step(node.iter, frame)
         rows = iterations.by_index(node) if isinstance(node, ast.For) else None
         if rows is not None:
             self.note_iteration(rows, frame, BY_INDEX)
@@ -133,6 +149,10 @@ class Notes(Effects):
     def note_return(self, node: ast.Return, frame: Frame, found: Set[str]) -> None:
         """A way out of a function: flags are held there, or a goal is turned down."""
         flag_locks.note_return(self.world, frame, node, found)
+
+    def note_raised(self, error: ast.expr, place: Place) -> None:
+        """A way out of a function, where a caller catches it."""
+        unreleased_locks.note_raised(self.world, error, place)
 
     def note_left(self, frame: Frame, *, goes_on: bool) -> None:
         """A flag that is held on some ways out only is not held for certain."""

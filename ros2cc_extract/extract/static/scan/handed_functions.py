@@ -100,7 +100,7 @@ def _follow(machine: RosInterpreter, state: ActivityState, function: Function, n
     def follow() -> None:
         world.activity, world.effects, world.current = state, state.effects, None
         world.when, world.count = When.CALLBACK, 1
-        world.again = world.second_pass = True
+        world.again = world.second_pass = world.only_data = True
         world.after_spin = False
         world.asked, world.ready = set(), frozenset()
         mark = machine.store.open_branch()
@@ -112,6 +112,7 @@ def _follow(machine: RosInterpreter, state: ActivityState, function: Function, n
     task = LoopTask(function.name, _OTHERS, many=many) if _is_coroutine(function) else None
     with as_root(world, id(state), task) if task is not None else nullcontext():
         guarded(machine, follow, state.place)
+    world.only_data = False
     _put_back(kept)
     if task is not None:
         world.loop_roots[id(state)] = task

@@ -36,6 +36,7 @@ def activities_of(
     doers = {id(entity) for entity in entities}
     touched = {id(node) for node in nodes}
     things = {number for entity in entities for number in _things(world, entity)}
+    names = {name for entity in entities for name in _shared_names(entity.effects)}
     found: list[ActivityState] = []
     while True:
         more = [
@@ -43,6 +44,7 @@ def activities_of(
             for state in left
             if state.nodes & touched
             or state.things & things
+            or not names.isdisjoint(_shared_names(state.effects))
             or any(id(start.by) in doers for start in state.starts)
             or any(id(runner) in things for runner in state.runners)
         ]
@@ -52,6 +54,14 @@ def activities_of(
         found += more
         doers |= {id(state) for state in more}
         things |= {number for state in more for number in state.things}
+        names |= {name for state in more for name in _shared_names(state.effects)}
+
+
+def _shared_names(effects: EffectLog | None) -> Iterable[str]:
+    """The data and the locks that code has to do with."""
+    log = effects or EffectLog()
+    yield from (access.name for access in (*log.reads, *log.writes))
+    yield from (lock.name for lock in log.locks if isinstance(lock.name, str))
 
 
 def _things(world: RosWorld, entity: EntityState) -> Iterable[int]:
@@ -133,6 +143,7 @@ def activity(
         count=state.count,
         conditional=_is_conditional(state),
         daemon=state.daemon,
+        on_loop=state.on_loop,
         loops=state.loops,
         ends_first=state.ends_first,
         unresolved=facts.unresolved,

@@ -105,7 +105,7 @@ class UnitBuilder:
         executor_name = self._taken.take(self._unit.executor_label)
         executor = executor_of(self._unit, executor_name, threads, entry, self._world)
         with_waits, activities, set_up = self._with_waits(callbacks, entities, executor)
-        handed = self._handed()
+        handed = self._handed(executor)
         answering = that_answer(handed, activities, self._world)
         return Spec(
             name=name,
@@ -125,13 +125,13 @@ class UnitBuilder:
             unresolved=tuple(self._facts),
         )
 
-    def _handed(self) -> tuple[tuple[Activity, bool], ...]:
+    def _handed(self, executor: Executor) -> tuple[tuple[Activity, bool], ...]:
         """Functions that code which is not scanned has, where something serves the nodes."""
         if self._unit.executor is None:
             return ()
         is_only = self._unit.is_only
-        names = self._node_names
-        return handed_to_others(self._world, self._nodes, names, self._taken, is_only=is_only)
+        names, taken = self._node_names, self._taken
+        return handed_to_others(self._world, self._nodes, names, taken, executor, is_only=is_only)
 
     def _name_nodes(self) -> list[str]:
         names = Names()

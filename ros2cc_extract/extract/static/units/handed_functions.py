@@ -1,5 +1,5 @@
 """
-Functions that code which is not scanned may call, on any thread, as values of a unit.
+Functions that code which is not scanned may call, or the system, as values of a unit.
 
 Of a web server it is known that it calls them on other threads than those that spin, where other
 threads spin than the one that runs it.
@@ -13,12 +13,17 @@ from dataclasses import replace
 from ros2cc_extract.extract.names import Names
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import ExecutorState, RosWorld
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Bound, Class, Instance
 from ros2cc_extract.extract.static.units.activities import facts_of
+from ros2cc_extract.extract.static.units.handler_locks import is_plain_lock
 from ros2cc_extract.extract.static.units.torn_messages import pieces_of
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import Waker
-from ros2cc_extract.spec.model import Activity, ActivityKind
+from ros2cc_extract.spec.effects import Access, Waker
+from ros2cc_extract.spec.model import Activity, ActivityKind, Executor
+
+_AT_ANY_TIME = 'a signal comes at any time'
+_NOT_SCANNED = 'it is handed to {}, which is not scanned'
 
 
 def handed_to_others(
@@ -26,6 +31,7 @@ def handed_to_others(
     nodes: Sequence[Instance],
     node_names: Mapping[int, str],
     taken: Names,
+    executor: Executor,
     *,
     is_only: bool,
 ) -> tuple[tuple[Activity, bool], ...]:
@@ -37,8 +43,8 @@ def handed_to_others(
     :param is_only: there is no other unit that they could belong to.
     """
     found = []
-    for state, name in world.handed_on:
-        effects = state.effects
+    for state, reason in (*_handed_on(world), *_handlers(world, executor)):
+        effects = _as_held(state, world, executor)
         touched = [node for node in nodes if id(node) in state.nodes]
         is_of_unit = bool(touched) or is_only or not state.nodes
         if not is_of_unit or not (effects.reads or effects.writes):
@@ -46,14 +52,13 @@ def handed_to_others(
         facts = facts_of(state)
         receiver = state.target.receiver if isinstance(state.target, Bound) else None
         owner = receiver if isinstance(receiver, Instance) else None
-        unresolved = Unknown(f'it is handed to {name}, which is not scanned', state.place)
         handed = Activity(
             name=taken.take(facts.label),
             kind=ActivityKind.POOL if facts.coroutine else ActivityKind.THREAD,
             function=facts.function,
             node=node_names[id(touched[0])] if len(touched) == 1 else None,
             cls=owner.class_name if owner and isinstance(owner.cls, Class) else None,
-            unresolved=unresolved,
+            unresolved=Unknown(reason, state.place),
             source=state.place,
             defined=facts.defined,
             reads=tuple(effects.reads),
@@ -91,3 +96,33 @@ def that_answer(
         if runs_beside:
             beside = replace(each, kind=ActivityKind.POOL, unresolved=None)
             yield replace(beside, starts=starts, daemon=True)
+
+
+def _handed_on(world: RosWorld) -> Iterator[tuple[ActivityState, str]]:
+    return ((state, _NOT_SCANNED.format(name)) for state, name in world.handed_on)
+
+
+def _handlers(world: RosWorld, executor: Executor) -> Iterator[tuple[ActivityState, str]]:
+    """
+    Handlers of signals, which interrupt the main thread in the middle of a callback.
+
+    Those of a loop of asyncio run between its callbacks.
+    """
+    for handler in world.signal_handlers:
+        if handler.interrupts or executor.in_thread:
+            yield handler, _AT_ANY_TIME
+
+
+def _as_held(state: ActivityState, world: RosWorld, executor: Executor) -> EffectLog:
+    """What it does; a handler takes a lock that its own thread holds once more, if it can."""
+    is_inside = state.interrupts and not executor.in_thread and len(executor.threads) == 1
+    if not is_inside:
+        return state.effects
+
+    def bare(access: Access) -> Access:
+        return replace(
+            access, locks=tuple(lock for lock in access.locks if is_plain_lock(lock, world))
+        )
+
+    reads, writes = map(bare, state.effects.reads), map(bare, state.effects.writes)
+    return replace(state.effects, reads=list(reads), writes=list(writes))

@@ -55,7 +55,7 @@ def note_handler_locks(world: RosWorld) -> None:
         acts = handler.effects.locks if handler.interrupts else []
         for act in acts:
             is_waited_for = not act.tries and isinstance(act.name, str) and act.source is not None
-            if is_waited_for and _is_plain(str(act.name), world):
+            if is_waited_for and is_plain_lock(str(act.name), world):
                 held = next(_held_in_main(str(act.name), number, world), None)
                 if held is not None:
                     world.diagnostics.append(_told(handler, act, held))
@@ -101,7 +101,7 @@ def _told_of_queue(
     )
 
 
-def _is_plain(name: str, world: RosWorld) -> bool:
+def is_plain_lock(name: str, world: RosWorld) -> bool:
     """Whether its own holder waits for it as well."""
     hint, _, number = name.partition('#')
     locks = world.locks.get(hint, [])

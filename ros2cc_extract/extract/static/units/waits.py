@@ -36,12 +36,14 @@ from ros2cc_extract.extract.static.units.wakers.endless_threads import never_com
 from ros2cc_extract.extract.static.units.wakers.late_offers import offered_late
 from ros2cc_extract.extract.static.units.wakers.lost_events import (
     answer_from_outside,
+    sent_before_clear,
     why_wiped_out,
 )
 from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import keeps_to_itself
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_kept_out
 from ros2cc_extract.extract.static.units.wakers.operations import (
     comes_last,
+    ended_last,
     wakings_of,
     why_no_item,
     why_none,
@@ -235,12 +237,9 @@ class UnitWaits(DataWriters):
             more, why = self._wakers_of(raw, raw.resource, doer)
             wakers += more
             escapes = escapes or why
-            named = replace(named, forgets=self._forgets(raw.resource, doer))
             wakings = wakings_of(self._world, raw.resource)
-            named = replace(named, answer_to=self._answer_to(raw, raw.resource, doer))
-            if is_activity(doer):
-                named = replace(named, at_end=self._ended_last(raw.resource))
             given = [w for w in wakings if w.word in raw.resource.ended_by]
+            named = self._with_ends(named, raw, raw.resource, given, doer)
             initial = self._initial(raw.resource, wakings)
             if given and may_find_it_done(raw, wakings, doer):
                 initial = None
@@ -254,8 +253,7 @@ class UnitWaits(DataWriters):
             elif initial != 0:
                 # A model of so many runs cannot say when they are used up.
                 many = 'some' if initial is None else f'the first {initial}'
-                reason = f'{many} {BY_ITSELF}'
-                escapes = escapes or Unknown(reason, raw.source)
+                escapes = escapes or Unknown(f'{many} {BY_ITSELF}', raw.source)
                 named = replace(named, initial=initial_permits.few(initial))
         elif row.ended_by and isinstance(raw.on, EntityRef):
             is_here = isinstance(named.on, str) and named.on in self._names.values()
@@ -351,6 +349,22 @@ class UnitWaits(DataWriters):
         why = self._why_open(mine, reference) or unsure or why_none(raw, mine, doer, self._world)
         return found, why
 
+    def _with_ends(
+        self,
+        named: Blocking,
+        raw: Blocking,
+        reference: ResourceRef,
+        given: list[Waking],
+        doer: Doer,
+    ) -> Blocking:
+        return replace(
+            named,
+            forgets=forgets(reference, given, doer),
+            answer_to=self._answer_to(raw, reference, doer),
+            at_end=ended_last(given, doer, self._world),
+            cleared_late=sent_before_clear(reference, given, doer, self._doers),
+        )
+
     def _answer_to(self, raw: Blocking, reference: ResourceRef, doer: Doer) -> str | None:
         """What the wait is an answer to; a thread that takes items in turn waits for no answer."""
         if raw.seconds is not None or _is_in_turn(reference, doer):
@@ -434,6 +448,7 @@ class UnitWaits(DataWriters):
             after=after,
             conditional=self._may_fail(waking, reference, doer, raw, stays=stays),
             held=waking.held,
+            passed=waking.taken,
         )
 
     def _may_fail(
@@ -447,12 +462,6 @@ class UnitWaits(DataWriters):
         if reference.guard is not None and waking.by is doer and is_unheard(waking, doer):
             return True  # it notifies before it waits itself
         return is_kept_out(waking, reference, doer, self._doers, raw)
-
-    def _ended_last(self, reference: ResourceRef) -> Place | None:
-        """Where the program ends a wait when its spin is over."""
-        wakings = (w for w in wakings_of(self._world, reference) if w.word in reference.ended_by)
-        last = (waking for waking in wakings if comes_last(waking, self._world))
-        return next((waking.place for waking in last), None)
 
     def _initial(self, reference: ResourceRef, mine: list[Waking]) -> int | None:
         """How many waits end without a waker, as the set-up leaves it."""

@@ -70,6 +70,7 @@ def find(context: Context) -> Iterator[Hit]:
     A callback held up by a wait that another rule explains is no finding of its own.
     """
     yield from (_unread(alike) for alike in at_one_place(_for_writers(context)))
+    yield from (_cleared_late(alike) for alike in at_one_place(_of_lost_answers(context)))
     if not open_facts(context):
         yield from hits_of(context)
         for wait in used_up(context):
@@ -111,6 +112,31 @@ def _unread(waits: Sequence[AnyWait]) -> Hit:
         f'reads {pipe}: once the pipe is full, the child waits for a reader, and {it} forever',
         help='use communicate(), which reads while it waits; read the pipe before or in a thread, '
         'or write to a file or DEVNULL',
+        severity=Severity.WARNING,
+        subjects=callers_of(waits),
+        chain=wait.chain,
+        related=tuple(ways_of_others(waits)),
+    )
+
+
+def _of_lost_answers(context: Context) -> Iterator[AnyWait]:
+    """Waits without a time-out for what may have come before the event was cleared."""
+    for doer in context.doers:
+        for block in doer.blocking:
+            if block.cleared_late is not None and block.seconds is None:
+                yield AnyWait(doer, block, kind_of(block))
+
+
+def _cleared_late(waits: Sequence[AnyWait]) -> Hit:
+    wait = waits[0]
+    it = 'it waits' if are_one(waits) else 'they wait'
+    what, topics = wait.block.resource or 'the event', wait.block.cleared_late
+    return Hit(
+        place=wait.place,
+        message=f'{who_waits(waits)} in {waits_in(wait)} for {what}, which is cleared after the '
+        f'message on {topics} is sent: what that brings may have set {what} before, and then {it} '
+        'forever',
+        help=f'clear {what} before you send the message; or wait with a time-out and look again',
         severity=Severity.WARNING,
         subjects=callers_of(waits),
         chain=wait.chain,

@@ -26,9 +26,12 @@ NOBODY_SPINS = Rule(
     '`Thread.join` on a thread that is in a wait which only callbacks end: after the spin, or '
     'after the shutdown of the executor that another thread spins; if that thread runs a loop, '
     'it is a warning. Also reported: a join where only a thread that was joined before could end '
-    'the wait; the end of the program where such a thread, or one that never checks whether to '
-    'stop, is not a daemon or works for a pool; and a `threading.Timer` that is not a daemon and '
-    'restarts itself in each run, because a `cancel` while its function runs has no effect.',
+    'the wait, or what comes behind the join, or where a lock is held that the thread takes; a '
+    'join before rclpy is shut down, or an end without a shutdown, where the thread runs while '
+    '`rclpy.ok()` and the spin has ended by itself; the end of the program where such a thread, '
+    'or one that never checks whether to stop, is not a daemon or works for a pool; and a '
+    '`threading.Timer` that is not a daemon and restarts itself in each run, because a `cancel` '
+    'while its function runs has no effect.',
     why='`Client.call` and a loop until `future.done()` do not spin: the executor of the '
     "client's node takes the answer, and that of the server's node takes the request; a timer of "
     'the node ends `Rate.sleep`. Reported only if every spin of the program is known. '
@@ -70,7 +73,8 @@ LOCK_KEPT = Rule(
     'some path without doing so. The next callback that takes the lock waits forever, and keeps '
     'its thread and its group.',
     why='Only `release()` releases a `threading.Lock`. All paths through the function are '
-    'checked, except those of exceptions. Lock classes of the program, with methods such as '
+    'checked; of exceptions only those that the function raises itself and a caller catches. '
+    'Lock classes of the program, with methods such as '
     '`acquire_read` and `release_read`, are checked too. A callback that waits for a lock '
     'releases nothing. Sources: Python, `threading`; rclpy 7.1.6 and 9.1.2, `executors.py` '
     '(`_make_handler`).',

@@ -10,7 +10,7 @@ from ros2cc_extract.findings.base.rule import Context, Hit, Rule
 from ros2cc_extract.findings.base.wording import called, shown
 from ros2cc_extract.findings.races.flag_locks import shared_by
 from ros2cc_extract.findings.races.harms import uses_cleared
-from ros2cc_extract.findings.races.races import RaceKind, races_of
+from ros2cc_extract.findings.races.races import Race, RaceKind, races_of
 from ros2cc_extract.findings.races.uses import Use
 from ros2cc_extract.findings.rules.races.lost_update import hit_of
 from ros2cc_extract.findings.waits.overlap import is_quick, overlaps_itself
@@ -30,8 +30,7 @@ def find(context: Context) -> Iterator[Hit]:
         if race.kind is RaceKind.CLEARED_IN_USE:
             reported |= {(race.first.doer.name, name) for name in race.names}
             reported |= {(name, race.first.place) for name in race.names}
-            hit = hit_of(race, help_text=HELP)
-            yield hit if race.first.access.later else replace(hit, severity=Severity.NOTE)
+            yield weighed(race, hit_of(race, help_text=HELP))
     alike: dict[tuple[str, Place, Severity | None], list[Use]] = {}
     for use in _of_themselves(context):
         name = use.access.name
@@ -39,6 +38,11 @@ def find(context: Context) -> Iterator[Hit]:
             alike.setdefault((name, use.place, _severity(use, context)), []).append(use)
     for (_, _, severity), uses in alike.items():
         yield _of_itself(uses, severity, context)
+
+
+def weighed(race: Race, hit: Hit) -> Hit:
+    """A note where nothing is called between the test and the use."""
+    return hit if race.first.access.later else replace(hit, severity=Severity.NOTE)
 
 
 def _of_themselves(context: Context) -> Iterator[Use]:

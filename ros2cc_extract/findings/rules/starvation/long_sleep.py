@@ -219,10 +219,13 @@ def _hits(sleeps: Sequence[Wait], context: Context) -> Iterator[Hit]:
     if held_up is None:
         return
     held, others = held_up
-    stopped = [shown(others)] if others else []
+    # One function may serve several entities; as those that wait it counts where it is alone.
+    alike = wait.caller.display_name
+    distinct = [other for other in others if other.display_name != alike] or others
+    stopped = [shown(distinct)] if distinct else []
     if _holds_services(wait.caller, context):
         stopped.append('the parameter services of the node')
-    verb = 'waits' if len(others) == len(stopped) == 1 else 'wait'
+    verb = 'waits' if len(distinct) == len(stopped) == 1 else 'wait'
     more = sorted((s for s in sleeps if s is not wait), key=lambda sleep: sleep.place)
     yield Hit(
         place=wait.place,

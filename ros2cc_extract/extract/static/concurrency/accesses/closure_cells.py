@@ -17,6 +17,7 @@ from ros2cc_extract.extract.static.program.text_queries import (
     noted_on,
     walk,
 )
+from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -37,6 +38,16 @@ from ros2cc_extract.spec.model import When
 
 _INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 _CODE = (Bound, Class, Function, Library, Module, Native)
+
+
+def owner_of(name: str, frame: Frame) -> Scope | None:
+    """The function whose variable the name means."""
+    scope: Scope | None = frame.scope
+    while scope is not None:
+        if name in scope.slots and name not in scope.global_names:
+            return scope
+        scope = scope.parent
+    return None
 
 
 def shown_cell(world: ConcurrentWorld, scope: Scope, name: str) -> str | None:

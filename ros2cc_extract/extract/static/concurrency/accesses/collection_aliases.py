@@ -20,7 +20,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     options_of,
 )
 
-Home = tuple[Instance, str]
+Home = tuple[Value, str]
 _FIXED = ('tuple', 'frozenset')
 
 

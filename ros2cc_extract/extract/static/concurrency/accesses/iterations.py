@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.static.python.values.values import Native, Value
+from ros2cc_extract.extract.static.python.values.values import Library, Native, Value
 
 _VIEWS = frozenset({'items', 'keys', 'values'})
 _PASSING_ON = frozenset({'enumerate', 'zip', 'reversed', 'iter', 'map', 'filter'})
@@ -13,6 +13,7 @@ _TAKING_ALL = frozenset(
     f'builtins.{name}'
     for name in ('list', 'tuple', 'set', 'frozenset', 'dict', 'sorted', 'sum', 'min', 'max')
 )
+_STEPS = frozenset({'send', '__next__'})
 _COPIES, _JOINS = 'copy', 'str.join'
 
 
@@ -39,6 +40,15 @@ def taken_at_once(function: Value, node: ast.Call) -> ast.expr | None:
         return node.func.value
     is_taken = function.name in _TAKING_ALL or function.name == _JOINS
     return node.args[0] if is_taken and node.args else None
+
+
+def stepped(function: Value, node: ast.Call) -> ast.expr | None:
+    """The iterator that a call asks for its next item."""
+    name = function.name if isinstance(function, (Native, Library)) else ''
+    if name == 'builtins.next':
+        return node.args[0] if node.args else None
+    is_sent = name in _STEPS and isinstance(node.func, ast.Attribute)
+    return node.func.value if is_sent else None  # type: ignore[attr-defined]
 
 
 def by_index(loop: ast.For) -> ast.expr | None:

@@ -2,13 +2,14 @@
 Ways out of a function on which it keeps a lock that it gives back on others.
 
 Only the text is looked at: which statements follow each other. Exceptions are left out, since
-any call may raise one.
+any call may raise one; but for those that a statement of the function raises and a caller catches.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+import builtins
+from collections.abc import Iterator, Sequence, Set
 from dataclasses import field
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
@@ -26,17 +27,20 @@ _NOWHERE: Held = frozenset()
 _TAKES, _GIVES = 'acquire', 'release'
 
 
-def ways_that_keep(function: FunctionNode, lock: str, suffix: str = '') -> tuple[ast.stmt, ...]:
+def ways_that_keep(
+    function: FunctionNode, lock: str, suffix: str = '', caught: Set[tuple[int, int]] = frozenset()
+) -> tuple[ast.stmt, ...]:
     """
     The statements by which the function is left with the lock still held.
 
     :param lock: text of the lock's expression, ``self.lock``.
     :param suffix: of the methods: ``_read`` for ``acquire_read`` and ``release_read``.
+    :param caught: lines and columns where it raises what a caller catches.
     :return: nothing where the function never gives the lock back: another one may; and nothing
         where it gives it back first: its caller holds the lock, and wants it held again. Nor
         where one loop takes several locks, and another one gives them back.
     """
-    walk = _Walk(lock, suffix)
+    walk = _Walk(lock, suffix, caught)
     given = min((_at(p) for p in ast.walk(function) if walk.does(p, _GIVES)), default=None)
     taken = min((_at(p) for p in ast.walk(function) if walk.does(p, _TAKES)), default=None)
     if given is None or (taken is not None and given < taken):
@@ -56,6 +60,17 @@ def _is_of_loops(function: FunctionNode, lock: str) -> bool:
     return sum(isinstance(loop.target, ast.Name) and loop.target.id == name for loop in loops) > 1
 
 
+def note_raised(world: ConcurrentWorld, error: ast.expr, place: Place) -> None:
+    """Remember the place of a ``raise`` that some caller has a handler for."""
+    called = error.func if isinstance(error, ast.Call) else error
+    name = called.attr if isinstance(called, ast.Attribute) else getattr(called, 'id', '')
+    kind = getattr(builtins, name, Exception)  # of a class of the program's own
+    classes = kind.__mro__ if isinstance(kind, type) else ()
+    names = {name, *(each.__name__ for each in classes)}
+    if any(not names.isdisjoint(caught) for caught in world.caught):
+        world.caught_raises.setdefault(place.file, set()).add((place.line, place.column - 1))
+
+
 def _at(call: ast.AST) -> tuple[int, int]:
     return call.lineno, call.col_offset  # type: ignore[attr-defined]
 
@@ -64,6 +79,8 @@ def _at(call: ast.AST) -> tuple[int, int]:
 class _Walk:
     lock: str
     suffix: str
+    caught: Set[tuple[int, int]]
+    handled: int = 0
     kept: list[ast.stmt] = field(default_factory=list)
     finals: list[Sequence[ast.stmt]] = field(default_factory=list)
 
@@ -106,7 +123,9 @@ class _Walk:
 
     def _try(self, node: ast.Try, held: Held) -> Held:
         self.finals.append(node.finalbody)
+        self.handled += bool(node.handlers)
         after = self.block(node.body, held)
+        self.handled -= bool(node.handlers)
         caught_with = after if self._begins_by_giving(node.body) else held | after
         caught = [self.block(handler.body, caught_with) for handler in node.handlers]
         after = self.block(node.orelse, after).union(*caught)
@@ -124,11 +143,14 @@ class _Walk:
                 held = frozenset({True})
             elif self.does(part, _GIVES):
                 held = frozenset({False})
-        if isinstance(node, ast.Return):
-            if True in self._after_finals(held):
-                self.kept.append(node)
-            return _NOWHERE
-        return _NOWHERE if isinstance(node, ast.Raise) else held
+        if not isinstance(node, (ast.Return, ast.Raise)):
+            return held
+        is_way_out = isinstance(node, ast.Return) or (
+            not self.handled and _at(node) in self.caught
+        )
+        if is_way_out and True in self._after_finals(held):
+            self.kept.append(node)
+        return _NOWHERE
 
     def _after_finals(self, held: Held) -> Held:
         pending, self.finals = self.finals, []
@@ -162,8 +184,9 @@ def note_kept_locks(world: ConcurrentWorld) -> None:
     for function in world.called.values():
         node = function.node
         if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            caught = world.caught_raises.get(function.place.file, set())
             for call, lock, suffix in _taken_in(node, world):
-                for way in ways_that_keep(node, lock, suffix):
+                for way in ways_that_keep(node, lock, suffix, caught):
                     world.diagnostics.append(_kept(function, call, lock, way))
 
 
@@ -183,12 +206,14 @@ def _taken_in(node: FunctionNode, world: ConcurrentWorld) -> Iterator[tuple[ast.
 
 def _kept(function: Function, call: ast.Call, lock: str, way: ast.stmt) -> Diagnostic:
     file = function.place.file
-    is_return = isinstance(way, ast.Return)
+    leaves = 'returns' if isinstance(way, ast.Return) else 'may end'
+    if isinstance(way, ast.Raise):
+        leaves = 'raises'
     return Diagnostic(
         severity=Severity.ERROR,
         slug='lock-kept',
         place=Place(file, way.lineno, way.col_offset + 1),
-        message=f'{function.name} {"returns" if is_return else "may end"} here and keeps {lock}, '
+        message=f'{function.name} {leaves} here and keeps {lock}, '
         f'taken at line {call.lineno}: the next one that takes it waits forever',
         help=f'write "with {lock}:", which gives it back however it is left',
     )

@@ -155,6 +155,7 @@ class OutsideWait:
     :param over: what is over by then, ``path`` the undecided branches it stands in.
     :param begun: how many spins there were by then; ``None`` where their order is not known.
     :param is_called: the program itself does so, and not a function without a known caller.
+    :param held: locks that are held meanwhile.
     """
 
     call: str
@@ -168,6 +169,7 @@ class OutsideWait:
     begun: int | None = None
     names: frozenset[str] = frozenset()
     is_called: bool = True
+    held: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,7 +223,8 @@ class ConcurrentWorld(World):
     :param made_at: identities of the objects that others may wait on, by the place they come from.
     :param other_writes: data that is written by what no known code calls, with its name, or
         after the spin has ended, with ``None``.
-    :param writes_beside: data that the set-up writes when it has started a thread, or has spun.
+    :param writes_beside: data that the set-up writes when it has started a thread, or has spun;
+        ``main_writes`` that with the threads which it has surely waited for by each write.
     :param handed_on: functions that code which is not scanned has, as if each were a thread;
         ``answering`` those of them, by identity, by which a web server answers.
     :param servers: the threads that run web servers, and where.
@@ -239,6 +242,7 @@ class ConcurrentWorld(World):
     :param given: objects that were handed to code which is not followed, with the reason.
     :param kept_in: the attribute that an object others may wait on was stored in last, and
         ``met_meanwhile`` what such attributes held while the set-up waited for it.
+    :param caught_raises: lines and columns, by file, of ``raise`` that some caller catches.
     :param left_callbacks: of futures that were not complete, see ``done_callbacks.py``; and
         ``completed`` the identities of those futures that code completes.
     :param activities: all of them, in the order of their start.
@@ -252,6 +256,7 @@ class ConcurrentWorld(World):
     :param queues: what is put into queues, see ``queue_items.py``.
     :param homes: the attribute that first held a collection, see ``collection_aliases.py``.
     :param objects: the attribute that holds an object of unknown kind for good, by the object.
+    :param members: what a field of such an object is called, by what is in it.
     :param locks: the locks that were taken, by the name they are stored under.
     :param main_spins: how many spins the set-up has called in its own thread, behind which no
         callback runs, and how many it had ``before_loop``, the outermost of those loops.
@@ -295,6 +300,7 @@ class ConcurrentWorld(World):
     made_at: dict[object, list[int]] = field(default_factory=dict)
     other_writes: dict[str, tuple[str | None, Place]] = field(default_factory=dict)
     writes_beside: dict[str, Place] = field(default_factory=dict)
+    main_writes: dict[str, list[frozenset[int]]] = field(default_factory=dict)
     cleared: dict[int, dict[tuple[object, Place], int]] = field(default_factory=dict)
     surely_cleared: dict[int, set[tuple[object, Place]]] = field(default_factory=dict)
     by_loop: bool = False
@@ -321,8 +327,9 @@ class ConcurrentWorld(World):
     still_down: frozenset[str] = frozenset()
     readers: dict[Place, list[EffectLog | None]] = field(default_factory=dict)
     queues: dict[int, Any] = field(default_factory=dict)
-    homes: dict[Value, tuple[Instance, str]] = field(default_factory=dict)
+    homes: dict[Value, tuple[Value, str]] = field(default_factory=dict)
     objects: dict[Value, str] = field(default_factory=dict)
+    members: dict[Value, str] = field(default_factory=dict)
     locks: dict[str, list[Instance]] = field(default_factory=dict)
     takes: Counter[str] = field(default_factory=Counter)
     loops_at: dict[str, int] = field(default_factory=dict)
@@ -353,6 +360,7 @@ class ConcurrentWorld(World):
     main_takes: list[tuple[str, Place, int]] = field(default_factory=list)
     interruptible: set[int] = field(default_factory=set)
     kept_in: dict[Value, tuple[Heaped, str]] = field(default_factory=dict)
+    caught_raises: dict[str, set[tuple[int, int]]] = field(default_factory=dict)
     met_meanwhile: dict[tuple[Heaped, str], dict[object, Instance]] = field(default_factory=dict)
     left_callbacks: list[Any] = field(default_factory=list)
     completed: set[int] = field(default_factory=set)

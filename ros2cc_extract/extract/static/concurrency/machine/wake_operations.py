@@ -125,6 +125,8 @@ class Waking:
     :param written: names of the data that ``by`` has written by then.
     :param holds: the locks that are held then.
     :param item: what is put.
+    :param taken: the locks that it has surely taken by then.
+    :param ended: of the set-up, the threads that it has surely waited for by then, by identity.
     """
 
     word: Word
@@ -143,6 +145,8 @@ class Waking:
     written: frozenset[str] = frozenset()
     holds: frozenset[Hold] = frozenset()
     item: Value | None = None
+    taken: tuple[str, ...] = ()
+    ended: frozenset[int] = frozenset()
 
     @property
     def is_sign(self) -> bool:

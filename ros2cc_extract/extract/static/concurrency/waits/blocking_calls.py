@@ -339,6 +339,8 @@ class Waits(ConcurrentMachine):
             written=frozenset(access.name for access in (world.effects or EffectLog()).writes),
             holds=lost_notifications.holds_of(world),
             item=item,
+            taken=tuple(world.effects.taken) if world.effects is not None else (),
+            ended=frozenset() if doer else outside_waits.ended_by(world),
         )
 
 

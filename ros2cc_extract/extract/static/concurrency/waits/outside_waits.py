@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_over
 from ros2cc_extract.extract.static.concurrency.machine.state import (
     ConcurrentWorld,
     OutsideWait,
@@ -156,14 +158,32 @@ def note_join(world: ConcurrentWorld, thread: Value, place: Place) -> None:
     if isinstance(thread, Instance) and world.is_program and is_set_up and not world.second_pass:
         is_late = world.after_spin or bool(world.spins_begun)
         wait = OutsideWait(JOIN, thread, place, world.in_thread, (), is_late, tuple(world.over))
-        is_called = world.when is When.START
-        world.outside.append(replace(wait, path=world.path, is_called=is_called))
+        is_called, held = world.when is When.START, held_over(world, thread)
+        world.outside.append(replace(wait, path=world.path, is_called=is_called, held=held))
 
 
 def note_over(world: ConcurrentWorld, what: Value | None) -> None:
     """The program has shut ``what`` down, or waited for its end."""
     if what is None or isinstance(what, Instance):
         world.over.append(Over(what, world.path, world.spins_begun))
+
+
+def ended_by(world: ConcurrentWorld) -> frozenset[int]:
+    """The threads that the program has surely waited for by now, by identity."""
+    sure = (over.what for over in world.over if is_behind(over.path, world.path))
+    return frozenset(id(what) for what in sure if what is not None)
+
+
+def note_write(world: ConcurrentWorld, shown: str) -> None:
+    """The program itself writes data that threads may look at."""
+    if world.when is When.START:
+        world.main_writes.setdefault(shown, []).append(ended_by(world))
+
+
+def come_behind(ended: Sequence[frozenset[int]], runners: Iterable[object]) -> bool:
+    """Whether all that the program does comes behind its waits for the ends of ``runners``."""
+    numbers = {id(runner) for runner in runners}
+    return bool(ended and numbers) and all(numbers <= each for each in ended)
 
 
 def note_timed_join(world: ConcurrentWorld, thread: Value) -> None:

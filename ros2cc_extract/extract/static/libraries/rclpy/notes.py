@@ -226,6 +226,7 @@ class RosNotes(StandardBlocks, RosMachine):
 
     def note_raised(self, error: ast.expr, place: Place) -> None:
         """What a callback raises may end the spin that runs it."""
+        super().note_raised(error, place)
         end_operations.note_raised(self, error, place)
 
     def note_call(self, function: Value, node: ast.Call, frame: Frame) -> None:

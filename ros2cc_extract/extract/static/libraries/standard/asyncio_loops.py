@@ -10,13 +10,13 @@ does not), ``asyncio/queues.py``; library reference, *Developing with asyncio*.
 from __future__ import annotations
 
 import ast
-import builtins
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
-    LoopAsk,
     LoopRun,
     LoopTouch,
 )
@@ -27,6 +27,7 @@ from ros2cc_extract.extract.static.libraries.standard.futures import (
     key_of_loop,
     run_in_executor,
 )
+from ros2cc_extract.extract.static.libraries.standard.loop_asks import ASKED, needing
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items
 from ros2cc_extract.extract.static.libraries.standard.queues import QUEUE_METHODS, may_be_full
 from ros2cc_extract.extract.static.libraries.standard.queues import init as init_queue
@@ -41,22 +42,24 @@ from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_LOOP
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
+    Bound,
     Call,
     Const,
     Coroutine,
+    Function,
     Handler,
     Instance,
     Native,
+    Partial,
     Value,
+    options_of,
 )
 from ros2cc_extract.extract.static.python.values.values import Library as Name
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import AWAIT
-from ros2cc_extract.spec.model import When
+from ros2cc_extract.spec.model import ActivityKind, When
 
-_ASKED = -1
-"""Among the identities of ``World.asked``: whether a loop runs."""
-
+_OWN_CODE = (Function, Bound, Partial)
 IN_TASK = '__in_task__'
 """Slot of a coroutine of a library that others run beside: what it does as a task."""
 STARTED = '__started__'
@@ -83,41 +86,11 @@ def _note_touch(machine: ConcurrentMachine, thing: Value, how: str, call: Call) 
     """Note that something of a loop is touched; the thread that does it is found after the run."""
     world = machine.world
     doer = world.activity or (world.current if world.effects is not None else None)
-    if world.by_loop or _ASKED in world.asked or doer is None or not isinstance(thing, Instance):
+    if world.by_loop or ASKED in world.asked or doer is None or not isinstance(thing, Instance):
         return
     touch = LoopTouch(how, thing, doer, call.place)
     if not any(touch.is_same(other) for other in world.loop_touches):
         world.loop_touches.append(touch)
-
-
-def _needing(how: str, handler: Handler, *, is_any: bool = False) -> Handler:
-    """
-    What raises ``RuntimeError`` where no loop runs in its thread.
-
-    :param is_any: the loop of the main thread is enough, even if nothing runs it.
-    """
-
-    def asking(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-        _note_ask(machine, how, call.place, is_any=is_any)
-        return handler(machine, receiver, call)
-
-    return asking
-
-
-def _note_ask(machine: ConcurrentMachine, how: str, place: Place, *, is_any: bool) -> None:
-    """Note that a callback needs a loop; which thread runs it is found after the run."""
-    world = machine.world
-    is_other = world.by_loop or _ASKED in world.asked or not world.in_callback
-    if is_other or world.current is None or any(map(_may_catch, world.caught)):
-        return
-    if not any(ask.place == place and ask.doer is world.current for ask in world.loop_asks):
-        world.loop_asks.append(LoopAsk(how, world.current, place, is_any))
-
-
-def _may_catch(names: frozenset[str]) -> bool:
-    """Whether a handler of these names may catch a ``RuntimeError``."""
-    kinds = (getattr(builtins, name, RuntimeError) for name in names)
-    return any(isinstance(kind, type) and issubclass(RuntimeError, kind) for kind in kinds)
 
 
 def _run_coroutine(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
@@ -182,6 +155,13 @@ def make_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     if task is not None:
         return task
     effects, held, holds = world.effects, world.held, world.holds
+    coroutine = call.args[0] if call.args else NONE
+    if effects is not None and _is_task(world.activity) and isinstance(coroutine, Coroutine):
+        given = coroutine.call
+        inner = Call(call.place, given.args, given.keywords, given.more)
+        own = world.activity.loop if isinstance(world.activity, ActivityState) else None
+        begin(machine, ActivityKind.THREAD, coroutine.function, inner, on_loop=own or call.place)
+        return machine.mystery(loop_tasks.TASK, call.place, 'asyncio task')
     if effects is None or (world.activity is not None and world.when is When.START):
         _follow_task(machine, receiver, call)
         return machine.mystery(loop_tasks.TASK, call.place, 'asyncio task')
@@ -273,11 +253,37 @@ def _sleeping(delay: Value | None) -> Handler:
 def _call_soon(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """It wakes no loop that waits, and is for the thread of the loop alone."""
     _note_touch(machine, receiver, 'call_soon', call)
-    return _call_soon_threadsafe(machine, receiver, call)
+    return _by_this_thread(machine, call)
 
 
 def _call_soon_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    """Let the loop call it; the code that hands it over need not wait for that."""
+    """
+    Let the loop call it; the code that hands it over need not wait for that.
+
+    What the program itself does then is done beside that code, unless a loop runs both.
+    """
+    target = call.args[0] if call.args else NONE
+    is_own = any(isinstance(each, _OWN_CODE) for each in options_of(target))
+    if not is_own or _is_on_loop(machine):
+        return _by_this_thread(machine, call)
+    turns = receiver.slots.get(LOOP) if isinstance(receiver, Instance) else None
+    inner = Call(call.place, call.args[1:])
+    with _by_loop(machine):
+        key = key_of_loop(receiver)
+        begin(machine, ActivityKind.THREAD, target, inner, turns=turns, on_loop=key)
+    return NONE
+
+
+def _is_on_loop(machine: ConcurrentMachine) -> bool:
+    world = machine.world
+    return _is_task(world.activity) or machine.runs_on_loop or world.is_on_loop
+
+
+def _is_task(activity: ActivityState | None) -> bool:
+    return activity is not None and activity.on_loop
+
+
+def _by_this_thread(machine: ConcurrentMachine, call: Call) -> Value:
     if call.args:
         with _by_loop(machine):
             machine.call(call.args[0], Call(call.place, call.args[1:]))
@@ -286,7 +292,7 @@ def _call_soon_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Cal
 
 def _is_running(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Return an open answer: code that asks has another way for a loop that runs."""
-    machine.world.asked.add(_ASKED)
+    machine.world.asked.add(ASKED)
     return machine.mystery('whether a loop runs', call.place, 'is_running()')
 
 
@@ -464,17 +470,17 @@ TABLE = Library(
     },
     functions={
         'asyncio.run': _run_loop,
-        'asyncio.gather': _needing('asyncio.gather', _gather, is_any=True),
+        'asyncio.gather': needing('asyncio.gather', _gather, is_any=True),
         'asyncio.wait_for': _wait_for,
         'asyncio.wait': _gather,
-        'asyncio.create_task': _needing('asyncio.create_task', _create_task),
-        'asyncio.ensure_future': _needing('asyncio.ensure_future', _create_task, is_any=True),
-        'asyncio.current_task': _needing('asyncio.current_task', _some_task),
+        'asyncio.create_task': needing('asyncio.create_task', _create_task),
+        'asyncio.ensure_future': needing('asyncio.ensure_future', _create_task, is_any=True),
+        'asyncio.current_task': needing('asyncio.current_task', _some_task),
         'asyncio.sleep': _asyncio_sleep,
-        'asyncio.get_event_loop': _needing('asyncio.get_event_loop', _own_loop, is_any=True),
+        'asyncio.get_event_loop': needing('asyncio.get_event_loop', _own_loop, is_any=True),
         'asyncio.set_event_loop': _set_loop,
         'asyncio.new_event_loop': _new_loop,
-        'asyncio.get_running_loop': _needing('asyncio.get_running_loop', _own_loop),
+        'asyncio.get_running_loop': needing('asyncio.get_running_loop', _own_loop),
     },
     aliases={
         'asyncio.queues.Queue': 'asyncio.Queue',

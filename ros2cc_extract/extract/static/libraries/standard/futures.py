@@ -130,6 +130,9 @@ def _init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     workers = call.argument(0, 'max_workers')
     if isinstance(receiver, Instance) and workers is not None:
         machine.store.write(receiver, WORKERS, workers)
+    first = call.argument(2, 'initializer')
+    if first not in (None, NONE):
+        begin(machine, ActivityKind.POOL, first, Call(call.place))
     return NONE
 
 

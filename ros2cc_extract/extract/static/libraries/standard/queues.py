@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ros2cc_extract.extract.static.concurrency.accesses.holders import queue_contents
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items, taken_out
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
@@ -40,7 +41,10 @@ def _waits(machine: ConcurrentMachine, call: Call, position: int) -> bool:
 
 
 def _get(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    if _waits(machine, call, 0):
+    is_held = _waits(machine, call, 0)
+    has_end = call.argument(1, 'timeout') not in (None, NONE)
+    queue_contents.note_taken(machine, receiver, call.place, waits=is_held and not has_end)
+    if is_held:
         machine.note_blocking('Queue.get', receiver, call.argument(1, 'timeout'), call.place)
     machine.note_wake(receiver, Word.GET, call.place)
     _move(machine, receiver, Word.GET)
@@ -57,7 +61,17 @@ def _move(machine: ConcurrentMachine, queue: Value, word: Word) -> None:
 
 
 def _put(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
-    if isinstance(receiver, Instance) and may_be_full(receiver) and _waits(machine, call, 1):
+    is_bounded = isinstance(receiver, Instance) and may_be_full(receiver)
+    is_held = _waits(machine, call, 1)
+    has_end = call.argument(2, 'timeout') not in (None, NONE)
+    queue_contents.note_given(
+        machine,
+        receiver,
+        call.place,
+        is_bounded=is_bounded,
+        waits=is_held and not has_end,
+    )
+    if is_bounded and is_held:
         machine.note_blocking('Queue.put', receiver, call.argument(2, 'timeout'), call.place)
     give_items(machine, receiver, call)
     machine.note_wake(receiver, Word.PUT, call.place, call.argument(0, 'item'))
@@ -69,6 +83,13 @@ def _without_waiting(word: Word) -> Handler:
     def handler(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         if call.place in machine.world.retried:
             _note_retried(machine, receiver, word, call)
+        if word is Word.GET:
+            queue_contents.note_taken(machine, receiver, call.place, waits=False)
+        elif word is Word.PUT:
+            is_bounded = isinstance(receiver, Instance) and may_be_full(receiver)
+            queue_contents.note_given(
+                machine, receiver, call.place, is_bounded=is_bounded, waits=False
+            )
         if word is Word.PUT:
             give_items(machine, receiver, call)
         item = call.argument(0, 'item') if word is Word.PUT else None
@@ -95,15 +116,18 @@ def _join(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 def _is_empty(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    queue_contents.note_asked(machine, receiver, call.place)
     return answer(receiver, Word.PUT, call, if_true=False)
 
 
 def _is_full(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    queue_contents.note_asked(machine, receiver, call.place)
     return full(receiver, call)
 
 
 def _size(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Code that has asked for the size, in a test or for a loop, takes no more than that."""
+    queue_contents.note_asked(machine, receiver, call.place)
     machine.world.ready |= {(receiver, word) for word in (Word.PUT, Word.GET, Word.DONE)}
     return machine.mystery('how full a queue is', call.place, 'queue')
 

@@ -22,6 +22,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Call,
     Class,
     Instance,
+    Partial,
     Value,
     options_of,
 )
@@ -42,14 +43,23 @@ def _serve(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     given = receiver.slots.get(_HANDLER)
     options = options_of(given) if isinstance(given, Value) else ()
     with counted(machine, Unknown('as often as somebody asks', call.place)):
-        for cls in (option for option in options if isinstance(option, Class)):
-            for method in _methods(machine, cls, receiver, call):
+        for cls, made in filter(None, (_made(option, call) for option in options)):
+            for method in _methods(machine, cls, receiver, made):
                 if _starts_threads(receiver):
                     begin(machine, ActivityKind.THREAD, method, Call(call.place), daemon=True)
                 else:
                     answers = partial(machine.call, method, Call(call.place))
                     machine.branch([answers, lambda: NONE], call.place)
     return NONE
+
+
+def _made(handler: Value, call: Call) -> tuple[Class, Call] | None:
+    """The class of a handler, and how it is called for a request; ``partial`` gives it more."""
+    if isinstance(handler, Class):
+        return handler, Call(call.place)
+    if isinstance(handler, Partial) and isinstance(handler.function, Class):
+        return handler.function, Call(call.place, list(handler.args), dict(handler.keywords))
+    return None
 
 
 def _starts_threads(server: Instance) -> bool:
@@ -60,7 +70,7 @@ def _starts_threads(server: Instance) -> bool:
 
 def _methods(machine: ConcurrentMachine, cls: Class, server: Value, call: Call) -> Iterator[Value]:
     """What answers requests, of one handler: it lives no longer than its request."""
-    handler = machine.instantiate(cls, Call(call.place))
+    handler = machine.instantiate(cls, call)
     if not isinstance(handler, Instance):
         return
     machine.store.write(handler, 'server', server)

@@ -269,6 +269,9 @@ def _barrier_init(machine: ConcurrentMachine, receiver: Value, call: Call) -> Va
     assert isinstance(receiver, Instance)
     machine.store.write(receiver, INITIAL, call.argument(0, 'parties') or NONE)
     machine.store.write(receiver, _PATIENCE, call.argument(2, 'timeout') or NONE)
+    action = call.argument(1, 'action')
+    if action is not None:
+        machine.note_handed([action], call.place, 'a barrier')
     return NONE
 
 

@@ -80,6 +80,16 @@ def evaluate_subject(machine: Machine, node: ast.Match, frame: Frame) -> None:
     note_tested(machine, place, calls)
 
 
+def decide_assertion(machine: Machine, node: ast.Assert, frame: Frame) -> None:
+    """What follows an ``assert`` rests on what is read for it, as behind an ``if`` that raises."""
+    reading, place, found = machine.world.reading, frame.place(node), set[str]()
+    calls = reading.calls
+    with reading.of(found):
+        decide(machine, node.test, frame)
+    reading.tests[place] = frozenset(found) | computed_from(node.test, frame.sources)
+    note_tested(machine, place, calls)
+
+
 def _decide_tested(
     machine: Machine,
     node: ast.If | ast.IfExp,
@@ -184,6 +194,15 @@ def evaluate_iterated(machine: Machine, node: ast.For | ast.AsyncFor, frame: Fra
     sources = frozenset(found) | computed_from(node.iter, frame.sources)
     frame.sources.update(dict.fromkeys(names_in(node.target), sources))
     return values
+
+
+def asked_by_rounds(node: ast.For | ast.AsyncFor, frame: Frame) -> Asked:
+    """``for _ in range(q.qsize())``: as many rounds as there were items."""
+    call = node.iter
+    is_count = isinstance(call, ast.Call) and ast.unparse(call.func) == 'range'
+    names = [frame.sources.get(name, frozenset()) for name in names_in(node.target)]
+    found = frozenset[str]().union(*names) if is_count else frozenset[str]()
+    return Asked(found, frozenset(), is_open=False)
 
 
 def _others_have_run(world: World) -> bool:

@@ -345,7 +345,12 @@ def _exit(machine: Machine, receiver: Value, call: Call) -> Value:
 def _partial(machine: Machine, receiver: Value, call: Call) -> Value:
     if not call.args:
         return machine.mystery('partial without a function', call.place, 'partial()')
-    return Partial(call.args[0], tuple(call.args[1:]), dict(call.keywords), call.more)
+    function = call.args[0]
+    bare = function.function if isinstance(function, Bound) else function
+    if isinstance(bare, Function) and machine.world.effects is None:
+        for value in (*call.args[1:], *call.keywords.values()):
+            machine.note_held(bare, 'partial', value)
+    return Partial(function, tuple(call.args[1:]), dict(call.keywords), call.more)
 
 
 def _wraps(machine: Machine, receiver: Value, call: Call) -> Value:

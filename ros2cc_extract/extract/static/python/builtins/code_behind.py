@@ -6,6 +6,7 @@ import ast
 
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.values.containers import Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
@@ -113,6 +114,7 @@ def delete(machine: Machine, target: ast.Attribute, frame: Frame) -> None:
     """``del owner.name`` runs the code behind it."""
     name, place = frame.attribute_name(target.attr), frame.place(target)
     for owner in _owners(machine, target, frame):
+        machine.note_attribute(owner, name, AccessKind.WRITE, place)
         own = machine.special_method(owner, '__delattr__', place)
         if own is not None:
             machine.call(own, Call(place, [Const(name)]))

@@ -26,6 +26,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Const,
     Function,
     Instance,
+    Library,
     Module,
     Mystery,
     Scope,
@@ -75,6 +76,7 @@ class Assignments(Machine):
                 self.note_cell(owner, name, AccessKind.WRITE, frame.place(target))
         elif frame.function is None and not scope.parent and frame.qualname == '':
             self.store.write(scope.module, name, value)
+            self.note_held(scope.module, name, value)
         else:
             self.store.write(scope, name, value)
             self.note_cell(scope, name, AccessKind.WRITE, frame.place(target))
@@ -124,8 +126,9 @@ class Assignments(Machine):
                 self.world.stored_late.add((owner, name))
         if old is None:
             self.note_attribute(owner, name, AccessKind.WRITE, place)
-        if isinstance(owner, Mystery):
-            self.note_handed([value], place, f'{owner.text}.{name}')
+        if isinstance(owner, (Mystery, Library)):
+            whose = owner.text if isinstance(owner, Mystery) else owner.name
+            self.note_handed([value], place, f'{whose}.{name}')
 
     def _note_same_unknown(self, old: Any, new: Value) -> None:
         """One attribute holds one thing: unknown callers pass the same to all methods."""

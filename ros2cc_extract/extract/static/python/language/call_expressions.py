@@ -13,7 +13,7 @@ from ros2cc_extract.extract.static.python.language.try_blocks import is_lack_unc
 from ros2cc_extract.extract.static.python.machine.dependences import computed_from
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import AccessKind
+from ros2cc_extract.extract.static.python.machine.world import ITSELF, AccessKind
 from ros2cc_extract.extract.static.python.objects import loops, unset_globals
 from ros2cc_extract.extract.static.python.objects.element_keys import note_item
 from ros2cc_extract.extract.static.python.values.containers import Mapping
@@ -49,6 +49,8 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
         call.text = node
     if isinstance(function, Native):
         unset_globals.pass_on(machine, node, call, frame)
+    if isinstance(function, Native) and function.name == 'vars' and len(call.args) == 1:
+        return machine.attribute(call.args[0], '__dict__', call.place)
     if isinstance(function, Native) and function.name in ('locals', 'globals', 'vars'):
         return machine.mystery(f'{function.name}()', call.place)
     machine.world.reading.calls += 1
@@ -81,9 +83,41 @@ def _called(machine: Machine, call: ast.Call, frame: Frame) -> Value:
     machine.world.refilling = node.attr == 'update' and _refills(machine, call, node.value, frame)
     machine.world.effects = noted
     machine.world.moves = TAKES_ANY if _takes_any(machine, call) else _MOVES.get(node.attr)
+    machine.world.given_from = _given_from(call, node.value, frame)
+    key = _only_key(call)
+    if key is not None:
+        note_item(machine, node.value, key, frame)
     machine.note_update(node.value, frame, AccessKind.UPDATE_IN_PLACE)
     machine.world.moves, machine.world.refilling = None, False
+    machine.world.given_from = frozenset()
     return function
+
+
+def _given_from(call: ast.Call, owner: ast.expr, frame: Frame) -> frozenset[str]:
+    """The shared data that a change of a collection is computed from."""
+    given = [*call.args, *(each.value for each in call.keywords)]
+    own = ast.dump(owner)
+    is_own = any(
+        isinstance(part, type(owner)) and ast.dump(part) == own
+        for each in given
+        for part in ast.walk(each)
+    )
+    names = frozenset[str]().union(*(computed_from(each, frame.sources) for each in given))
+    return names | {ITSELF} if is_own else names
+
+
+def _only_key(call: ast.Call) -> ast.expr | None:
+    """``d.update(n=…)``, ``d.__setitem__('n', …)``: the key that is stored, if it is one."""
+    assert isinstance(call.func, ast.Attribute)
+    if call.func.attr == '__setitem__' and call.args:
+        return call.args[0]
+    if call.func.attr != 'update' or len(call.args) + len(call.keywords) != 1:
+        return None
+    if call.keywords:
+        name = call.keywords[0].arg
+        return ast.Constant(name) if name is not None else None
+    given = call.args[0]
+    return given.keys[0] if isinstance(given, ast.Dict) and len(given.keys) == 1 else None
 
 
 def _refills(machine: Machine, call: ast.Call, owner: ast.expr, frame: Frame) -> bool:

@@ -9,6 +9,7 @@ from functools import partial
 from ros2cc_extract.extract.static.program.text_queries import is_test, mangled
 from ros2cc_extract.extract.static.python.builtins import generators, given_functions
 from ros2cc_extract.extract.static.python.builtins.code_behind import ACCESSORS, with_accessor
+from ros2cc_extract.extract.static.python.builtins.default_values import keep_defaults
 from ros2cc_extract.extract.static.python.language import plain_data_calls, recursive_loops
 from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, NEXT, RETURN
 from ros2cc_extract.extract.static.python.machine.frame import BudgetError, CannotCallError, Frame
@@ -261,15 +262,7 @@ class Calls(Machine):
         function.owner = in_class
         if in_class is not None and name == _TOLD:
             function.binding = 'class'
-        function.defaults = tuple(self.evaluate(d, frame) for d in node.args.defaults)
-        parameters = (*node.args.posonlyargs, *node.args.args)
-        for parameter, value in zip(
-            reversed(parameters), reversed(function.defaults), strict=False
-        ):
-            self.name_value(value, parameter.arg)
-        for parameter, default in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True):
-            if default is not None:
-                function.keyword_defaults[parameter.arg] = self.evaluate(default, frame)
+        keep_defaults(self, function, frame)
         if isinstance(node, ast.Lambda):
             return function
         return self._decorate(function, node, frame)

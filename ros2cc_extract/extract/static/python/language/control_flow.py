@@ -17,7 +17,6 @@ from ros2cc_extract.extract.static.python.builtins import generators
 from ros2cc_extract.extract.static.python.language import loops_as_while
 from ros2cc_extract.extract.static.python.machine import path_facts
 from ros2cc_extract.extract.static.python.machine.block_exits import BREAK, CONTINUE, NEXT, RETURN
-from ros2cc_extract.extract.static.python.machine.dependences import NOTHING_ASKED
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.objects import iterators, loops
@@ -156,7 +155,10 @@ def run_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int
     with generators.handed_on(machine) if is_driven else nullcontext():
         items = loops.items_to_run(machine, rounds, place)
 
-    with _loop(machine, frame), machine.world.reading.in_loop(NOTHING_ASKED):
+    with (
+        _loop(machine, frame),
+        machine.world.reading.in_loop(open_tests.asked_by_rounds(node, frame)),
+    ):
         with nullcontext() if is_driven else loops.repeated(machine, items, node.body) as begin:
 
             def once(item: Value) -> int:

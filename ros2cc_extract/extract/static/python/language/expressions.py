@@ -237,7 +237,10 @@ def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value
         set_ones = [o for o in options if o != NONE] or options
         able = [o for o in set_ones if machine.has_attribute(o, name) is not False]
         return choice([machine.attribute(o, name, place) for o in able or options])
-    return machine.attribute(owner, name, place, text)
+    found = machine.attribute(owner, name, place, text)
+    if isinstance(owner, Mystery):
+        machine.note_held(owner, name, found)
+    return found
 
 
 def _collection(kind: str) -> Callable[[Expressions, Any, Frame], Value]:

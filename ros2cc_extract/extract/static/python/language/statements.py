@@ -47,6 +47,7 @@ from ros2cc_extract.extract.static.python.machine.world import (
     AccessKind,
 )
 from ros2cc_extract.extract.static.python.objects import memoization
+from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.containers import Sequence as Items
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
@@ -82,7 +83,7 @@ class Statements(Machine):
                     return exits
                 if flow & LEAVING and frame.function is not None:
                     self.world.path = (*self.world.path, (frame.place(statement), -1))
-                if _may_raise(statement):
+                if isinstance(statement, ast.Assert) or _may_raise(statement):
                     reading.passed = (*reading.passed, (frame.place(statement), -1))
             return exits | NEXT
         finally:
@@ -230,6 +231,8 @@ def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) ->
     with machine.in_one_piece(node, frame), waited:
         machine.note_update(load, frame, AccessKind.UPDATE)
         machine.note_part(load, frame)
+    if isinstance(old, Collection) and isinstance(node.op, _IN_PLACE):
+        machine.note_update(load, frame, AccessKind.UPDATE_IN_PLACE)
     if isinstance(old, Items) and old.kind == 'list' and isinstance(node.op, ast.Add):
         items, rest = machine.items_of(value, frame.place(node))
         machine.charge(len(items))
@@ -241,6 +244,9 @@ def _assign_augmented(machine: Statements, node: ast.AugAssign, frame: Frame) ->
     machine.assign(target, new, frame)
     machine.world.effects = noted
     return NEXT
+
+
+_IN_PLACE = (ast.BitOr, ast.BitAnd, ast.BitXor, ast.Sub)
 
 
 def _as_assignment(node: ast.AugAssign) -> ast.Assign:
@@ -405,7 +411,7 @@ def _constant_flow(flow: int) -> Callable[..., int]:
 
 
 def _assert(machine: Statements, node: ast.Assert, frame: Frame) -> int:
-    open_tests.decide(machine, node.test, frame)
+    open_tests.decide_assertion(machine, node, frame)
     return NEXT
 
 

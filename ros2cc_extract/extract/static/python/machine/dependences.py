@@ -134,6 +134,10 @@ class Reading:
         """Whether a test of ``name`` has led to where the program is."""
         return any(name in self.tests.get(place, ()) for place, _ in self.behind(path))
 
+    def leads_to(self, name: str, path: Path) -> bool:
+        """The same, or a loop goes on because of it."""
+        return self.governs(name, path) or any(name in asked.names for asked in self.loops)
+
     def found_of(self, name: str, path: Path) -> str | None:
         """What tests of ``name`` have found, where nothing else of it matters any more."""
         if name in self.flowing or not self.governs(name, path):

@@ -85,6 +85,7 @@ class EffectLog:
     :param stored_last: what was stored last in an object, by its name and the way there.
     :param resting: loops that await something in each round.
     :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
+    :param taken: the locks that were taken by now on every branch.
     :param looked: while a test is asked for what it looks at, see ``loop_ends.py``.
     """
 
@@ -109,6 +110,7 @@ class EffectLog:
     order: list[tuple[str, object]] = field(default_factory=list)
     pieces: list[Piece] = field(default_factory=list)
     woken: dict[int, int] = field(default_factory=dict)
+    taken: dict[str, None] = field(default_factory=dict)
     looked: Looked | None = None
 
 

@@ -60,10 +60,12 @@ class Cut:
     classes: frozenset[Class] = frozenset()
 
 
+Effect = TypeVar('Effect', Access, Act, Cut)
+
+ITSELF = '(itself)'
+"""Of a change of a collection: it is computed from what is in it."""
 # A loop that is unrolled meets the same effect again and again.
 RECENT = 40
-
-Effect = TypeVar('Effect', Access, Act, Cut)
 
 
 def note_once(noted: list[Effect], effect: Effect) -> None:
@@ -118,6 +120,8 @@ class World:
     :param iterating: class of the collection that a loop begins to go over.
     :param parts: what was made while an object was set up, by the identity of the object.
     :param moves: what the call does to a collection that follows, see ``Access``.
+    :param given_from: the data that the call computes its change from, or ``ITSELF``.
+    :param only_data: what is followed shows what it reads and writes, and nothing else.
     :param refilling: an item is stored under a key that the dictionary surely has.
     :param assumed: the rule by which the running loop is assumed to go over these items.
     :param stopped: this branch of the program has ended.
@@ -195,6 +199,8 @@ class World:
     iterating: str | None = None
     refilling: bool = False
     moves: str | None = None
+    only_data: bool = False
+    given_from: frozenset[str] = frozenset()
     looking: tuple[tuple[int, str], ...] = ()
     made_by_looking: dict[object, Instance] = field(default_factory=dict)
     unset_globals: dict[tuple[str, str], Mystery] = field(default_factory=dict)

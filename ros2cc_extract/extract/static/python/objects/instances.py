@@ -9,6 +9,7 @@ from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.objects import memoization, reanalysis
 from ros2cc_extract.extract.static.python.objects.allocation_sites import made_before, remember
 from ros2cc_extract.extract.static.python.objects.dataclass_fields import fill_fields, is_dataclass
+from ros2cc_extract.extract.static.python.objects.library_calls import CALLING_BACK, is_standard
 from ros2cc_extract.extract.static.python.objects.metaclasses import scanned_new
 from ros2cc_extract.extract.static.python.values import enumerations
 from ros2cc_extract.extract.static.python.values.values import (
@@ -18,6 +19,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Class,
     Function,
     Instance,
+    Library,
     Native,
     Value,
     options_of,
@@ -102,7 +104,29 @@ class Instances(Machine):
                 self._fill(cls, made, call)
         finally:
             self.beginning.pop()
+        self._hand_methods(cls, made, call.place)
         return made
+
+    def _hand_methods(self, cls: Class, made: Instance, place: Place) -> None:
+        """Code that is not scanned, of which the class is a part, may call its methods."""
+        base = next((c.name for c in cls.mro if isinstance(c, Library) and self._is_open(c)), None)
+        if base is None:
+            return
+        methods = [
+            Bound(made, held)
+            for each in cls.mro
+            if isinstance(each, Class)
+            for held in each.slots.values()
+            if isinstance(held, Function) and held.binding == 'method'
+        ]
+        self.note_handed(methods, place, base)
+
+    def _is_open(self, base: Library) -> bool:
+        """Whether nothing is known of a class but its name."""
+        is_known = is_standard(base.name) and not base.name.startswith(CALLING_BACK)
+        return not (is_known or base.name.startswith(self.model.harmless)) and not any(
+            self.model.rows(base.name)
+        )
 
     def _made_by_looking(self, cls: Class, place: Place) -> Instance | None:
         """What a property made when it was asked before, as far as this branch knows of it."""

@@ -98,7 +98,7 @@ class LibraryCalls(Machine):
         if isinstance(function, Mystery):
             name = function.text
         self._keep_escaped(call)
-        if is_standard(name) and not name.startswith(_CALLING_BACK):
+        if is_standard(name) and not name.startswith(CALLING_BACK):
             return
         self.note_library_call(name, call.place)
         self.note_handed((*call.args, *call.keywords.values()), call.place, name, function)
@@ -108,7 +108,8 @@ class LibraryCalls(Machine):
         for argument in (*call.args, *call.keywords.values()):
             for option in options_of(argument):
                 if isinstance(option, Instance) and isinstance(option.state, LibraryState):
-                    option.state.note_passed(name, call.place)
+                    if not self.world.only_data:
+                        option.state.note_passed(name, call.place)
                 elif isinstance(option, Collection) and not self.model.makes_data(name):
                     self.world.handed_over.setdefault(option, why)
 
@@ -184,8 +185,8 @@ def _add_state(instance: Instance, make: Callable[[], Any], row: LibraryClass) -
         instance.state = made if is_beside else first
 
 
-_CALLING_BACK = 'tkinter.'
-"""Of the standard library, what calls functions later, in the thread of its main loop."""
+CALLING_BACK = ('tkinter.', 'sched.', 'weakref.', 'sys.', 'gc.', 'threading.', 'multiprocessing.')
+"""Of the standard library, what calls functions later, in a thread of its own choice."""
 
 
 def is_standard(name: str) -> bool:

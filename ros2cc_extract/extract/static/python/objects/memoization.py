@@ -18,9 +18,11 @@ from ros2cc_extract.extract.static.python.values.values import (
     Class,
     Function,
     Heaped,
+    Instance,
     Mystery,
     Native,
     Value,
+    options_of,
     present,
     source_text,
 )
@@ -69,7 +71,14 @@ def recall(machine: Machine, function: Function, call: Call, run: Run) -> Value:
     """The result of the first call with the same arguments, else that of ``run``."""
     results = function.slots[_KEPT]
     assert isinstance(results, _Results)
-    return _recall(machine, results, call, run)
+    known = len(results.slots)
+    result = _recall(machine, results, call, run)
+    if len(results.slots) > known:
+        for option in options_of(result):
+            if isinstance(option, Instance):
+                option.born = None  # the callback that asks first has it not for itself
+            machine.note_held(function, f'result#{known + 1}' if known else 'result', option)
+    return result
 
 
 def _recall(machine: Machine, results: _Results, call: Call, run: Run) -> Value:

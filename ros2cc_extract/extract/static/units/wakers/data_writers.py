@@ -16,6 +16,7 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     TopicRef,
 )
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import is_in_process
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import come_behind
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
 )
@@ -168,7 +169,10 @@ class DataWriters:
 
         So does what it does beside them before; a thread that works meanwhile does not wait.
         """
+        runners = doer.runners if isinstance(doer, ActivityState) else ()
         for name in sorted(on.names) if is_activity(doer) else ():
+            if come_behind(self._world.main_writes.get(name, ()), runners):
+                continue
             by, place = self._world.other_writes.get(name, ('', None))
             beside = self._world.writes_beside.get(name)
             if by is None:

@@ -36,15 +36,24 @@ def answer_from_outside(
     return ', '.join(sorted(sent)) if sent and heard and not is_open else None
 
 
-def why_wiped_out(
+def sent_before_clear(
     reference: ResourceRef, mine: Sequence[Waking], doer: Doer, doers: Sequence[Doer]
-) -> Unknown | None:
-    """Why all that ends a wait may come before the event is cleared, and not again."""
+) -> str | None:
+    """The topics of the messages sent before an event is cleared, if only they set it again."""
     answers = _answers(reference.answered, doers)
     heard = [heard_on(waking.by) for waking in mine]
     if not answers or not heard or not all(_is_answer(t, answers, doer, doers) for t in heard):
         return None
-    topics = ', '.join(sorted(reference.answered))
+    return ', '.join(sorted(reference.answered))
+
+
+def why_wiped_out(
+    reference: ResourceRef, mine: Sequence[Waking], doer: Doer, doers: Sequence[Doer]
+) -> Unknown | None:
+    """Why all that ends a wait may come before the event is cleared, and not again."""
+    topics = sent_before_clear(reference, mine, doer, doers)
+    if topics is None:
+        return None
     reason = f'what ends it may come for the message on {topics} that is sent before the clear'
     return Unknown(reason, mine[0].place)
 

@@ -7,13 +7,14 @@ from collections.abc import Sequence
 from ros2cc_extract.extract.static.concurrency.machine.item_values import ends
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import come_behind
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
 )
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
-from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import Blocking
 
 _KEPT = 'it is kept in a collection, and the code that takes it out could not be followed'
@@ -106,6 +107,15 @@ def comes_last(waking: Waking, world: RosWorld) -> bool:
     """Whether the set-up does it when its last spin is over, and no callback runs any more."""
     is_behind = 0 < waking.spins == world.main_spins
     return waking.by is None and (waking.after_spin or is_behind)
+
+
+def ended_last(given: Sequence[Waking], doer: Doer, world: RosWorld) -> Place | None:
+    """Where the program ends a wait of a thread: its spin is over, and it has not joined that."""
+    if not isinstance(doer, ActivityState):
+        return None
+    in_time = (waking for waking in given if not come_behind([waking.ended], doer.runners))
+    last = (waking for waking in in_time if comes_last(waking, world))
+    return next((waking.place for waking in last), None)
 
 
 def why_none(raw: Blocking, mine: Sequence[Waking], doer: Doer, world: RosWorld) -> Unknown | None:

@@ -44,7 +44,7 @@ def are_concurrent(world: RosWorld, first: Spin, second: Spin) -> bool:
         return False
     if first.thread == 0:
         return first.for_ever and second.from_callback
-    return first.for_ever or first.repeated
+    return first.for_ever or first.repeated or (second.thread == 0 and second.for_ever)
 
 
 def note_spun_twice(world: RosWorld) -> None:
@@ -60,11 +60,19 @@ def note_spun_twice(world: RosWorld) -> None:
 def _by_threads(world: RosWorld) -> Iterator[Diagnostic]:
     for first, second in combinations(world.spins.values(), 2):
         if are_concurrent(world, first, second) and _is_ordinary(first.executor):
-            is_same = _asks_the_same((first.how, first.timeout), (second.how, second.timeout))
-            is_one = first.place == second.place
-            where = 'by the same call, with another node' if is_one else f'({first.place})'
-            other = f'another thread spins it already {where}'
-            yield _spun_twice(second.executor, second.how, second.place, other, is_same)
+            yield _by_two_threads(first, second)
+
+
+def _by_two_threads(first: Spin, second: Spin) -> Diagnostic:
+    """The thread that spins for a while is told, and else the second one."""
+    is_same = _asks_the_same((first.how, first.timeout), (second.how, second.timeout))
+    is_short = not (first.for_ever or first.repeated)
+    told, rival = (first, second) if is_short else (second, first)
+    where = f'({rival.place})'
+    if first.place == second.place:
+        where = 'by the same call, with another node'
+    other = f'another thread spins it {"too" if is_short else "already"} {where}'
+    return _spun_twice(told.executor, told.how, told.place, other, is_same)
 
 
 def _by_callbacks(world: RosWorld) -> Iterator[Diagnostic]:

@@ -26,6 +26,7 @@ from ros2cc_extract.extract.static.concurrency.waits.outside_waits import (
     ANSWERS,
     JOIN,
     RATE,
+    come_behind,
     in_words,
 )
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
@@ -42,7 +43,8 @@ from ros2cc_extract.extract.static.python.values.values import (
     Instance,
     options_of,
 )
-from ros2cc_extract.spec.effects import POLLING_LOOP, WORKING_LOOP, Blocking
+from ros2cc_extract.extract.static.units.whole_program.threads_until_shutdown import ends_by_itself
+from ros2cc_extract.spec.effects import POLLING_LOOP, WORKING_LOOP, Act, Blocking
 
 
 def is_over(spin: Spin, number: int, wait: OutsideWait, world: RosWorld) -> bool:
@@ -74,6 +76,10 @@ def never_joined(
     for state in world.activities:
         if not any(wait.client is runner for runner in state.runners) or state.serves:
             continue
+        taken = next((act for act in state.effects.locks if act.name in wait.held), None)
+        if taken is not None and not taken.tries and not wait.in_thread:
+            yield _lock_kept(wait, taken)
+            return
         around = [b for b in state.effects.blocking if b.call in (WORKING_LOOP, POLLING_LOOP)]
         loops = {b.call for b in around}
         for block in state.effects.blocking:
@@ -85,11 +91,11 @@ def never_joined(
             passed = (block, *around) if asks_again and len(around) == 1 else (block,)
             was_reported = any(is_reported(each, state, wait, world) for each in passed)
             goes_round = goes_round and not was_reported
-            if goes_round or not (wait.is_late or block.conditional):
-                why = why_for_ever(block, state, wait, world, spun)
-                if why is not None:
-                    yield _diagnostic(wait, block, why)
-                    return
+            why = why_for_ever(block, state, wait, world, spun)
+            is_sure = goes_round or not (wait.is_late or block.conditional)
+            if why is not None and (is_sure or why.startswith(_BEHIND)):
+                yield _diagnostic(wait, block, why)
+                return
 
 
 def is_reported(block: Blocking, state: ActivityState, wait: OutsideWait, world: RosWorld) -> bool:
@@ -155,15 +161,19 @@ def why_for_ever(
     resource = block.resource
     if isinstance(resource, DataRef) and wait.is_late:
         is_for_good = block.call == WORKING_LOOP and resource.minds_nothing
-        return _NEVER_CLEARED if is_for_good and not _is_written(resource, world) else None
+        is_written = _is_written(resource, wait, world)
+        return _NEVER_CLEARED if is_for_good and not is_written else None
     if not isinstance(resource, ResourceRef) or resource.asked:
         return None
-    mine = [w for w in world.wakings.get(resource.number, ()) if w.word in resource.ended_by]
+    ending = [w for w in world.wakings.get(resource.number, ()) if w.word in resource.ended_by]
+    mine = [w for w in ending if not come_behind([w.ended], [wait.client])]
     served = [w.by.node for w in mine if isinstance(w.by, EntityState)]
     others = [w for w in mine if not isinstance(w.by, EntityState)]
     is_open = resource.number in world.given or uncalled_wakers(
         world, str(resource), resource.ended_by, resource.made
     )
+    if ending and not mine and not is_open:
+        return f'{_BEHIND} ({ending[0].place})'
     if is_open or not mine or any(node is each for node in served for each in spun):
         return None
     if others and not _have_given(others, state, wait):
@@ -171,11 +181,12 @@ def why_for_ever(
     return _NOT_SPUN if served else 'and the thread that would end that has ended'
 
 
-def _is_written(data: DataRef, world: RosWorld) -> bool:
-    """Whether anybody writes what the loop looks at, but for the set-up before."""
+def _is_written(data: DataRef, wait: OutsideWait, world: RosWorld) -> bool:
+    """Whether anybody writes what the loop looks at, but for the set-up before or behind."""
     if data_is_written_elsewhere(world, data.names) is not None:
         return True
-    if any(name in world.writes_beside for name in data.names):
+    written = [world.main_writes[name] for name in data.names if name in world.main_writes]
+    if any(not come_behind(ended, [wait.client]) for ended in written):
         return True
     logs = [each.effects or EffectLog() for each in (*world.entities, *world.activities)]
     return any(write.name in data.names for log in logs for write in log.writes)
@@ -203,15 +214,16 @@ def _why_asleep(block: Blocking, wait: OutsideWait, world: RosWorld) -> str | No
     stopped = [over.what for over in _certain(wait) if isinstance(over.what, Instance)]
     serving = [spin for spin in world.spins.values() if _serves(spin, timer.node)]
     is_stopped = all(
-        _waits_itself(s, wait) or any(s.executor is each for each in stopped) for s in serving
+        _waits_itself(s, wait, world) or any(s.executor is each for each in stopped)
+        for s in serving
     )
     return _NOT_SPUN if serving and is_stopped else None
 
 
-def _waits_itself(spin: Spin, wait: OutsideWait) -> bool:
+def _waits_itself(spin: Spin, wait: OutsideWait, world: RosWorld) -> bool:
     """Whether the spinning thread is the one that waits, and its spin ends before rclpy does."""
     is_main = not spin.in_thread and not spin.from_callback and not wait.in_thread
-    return is_main and not spin.for_ever and spin.how.endswith('spin_until_future_complete')
+    return is_main and ends_by_itself(spin, world)
 
 
 def _serves(spin: Spin, node: Instance) -> bool:
@@ -252,6 +264,7 @@ def _is_way_out(part: ast.AST) -> bool:
     return isinstance(part, (ast.Break, ast.Return))
 
 
+_BEHIND = 'and what would end that comes behind the join'
 _NEVER_CLEARED = 'and nobody ever writes that'
 _NOT_SPUN = 'and nothing spins the node whose callback would end that'
 
@@ -268,6 +281,18 @@ def _diagnostic(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
         message=f'{JOIN} waits for a thread that waits in {in_words(block.call)} for '
         f'{awaited}{at}, {why}{when}: {may} forever',
         help=_help(wait, block),
+    )
+
+
+def _lock_kept(wait: OutsideWait, taken: Act) -> Diagnostic:
+    at = f' ({taken.source})' if taken.source is not None else ''
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='nobody-spins',
+        place=wait.place,
+        message=f'{JOIN} waits for a thread that takes {taken.name}{at}, which is held here '
+        'meanwhile: it may wait forever',
+        help=f'give {taken.name} back before the join',
     )
 
 

@@ -61,10 +61,10 @@ def _is_shut_down_beside(world: RosWorld) -> bool:
 def spins_end_by_themselves(world: RosWorld) -> bool:
     """Whether the main program spins, and each time it has ended rclpy is still up."""
     spins = [spin for spin in world.spins.values() if not spin.in_thread]
-    return bool(spins) and all(_ends_by_itself(spin, world) for spin in spins)
+    return bool(spins) and all(ends_by_itself(spin, world) for spin in spins)
 
 
-def _ends_by_itself(spin: Spin, world: RosWorld) -> bool:
+def ends_by_itself(spin: Spin, world: RosWorld) -> bool:
     """Whether it does one thing, and no loop repeats it until rclpy is shut down."""
     places = {spin.place, *(place for chain in spin.chains for place in chain)}
     is_short = not spin.for_ever and spin.how.endswith(_ONCE)

@@ -114,7 +114,7 @@ if __name__ == '__main__':
 
 def test_what_a_run_keeps_in_a_list_of_a_dictionary_is_not_followed_to_an_end() -> None:
     (unit,) = scan_text(OF_A_LOOP).units
-    ((blocking,),) = (activity.blocking for activity in unit.activities)
+    ((blocking,), ()) = (activity.blocking for activity in unit.activities)
     assert not blocking.wakers
     assert blocking.escapes is not None
     assert 'kept in a collection' in blocking.escapes.reason

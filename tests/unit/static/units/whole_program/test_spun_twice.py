@@ -101,3 +101,53 @@ def main():
 def test_a_spin_of_the_set_up_is_over_when_callbacks_run(first: str, lines: list[int]) -> None:
     found = scan_text(IN_CALLBACK.format(first=first)).diagnostics
     assert [each.place.line for each in found if each.slug == 'executor-spun-twice'] == lines
+
+
+ASKING = """
+import threading
+import rclpy
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+class Asker(Node):
+    def __init__(self):
+        super().__init__('asker')
+        self.client = self.create_client(Trigger, 'state')
+        self.create_service(Trigger, 'go', self.go)
+        self.asking = threading.Thread(target=self.ask)
+
+    def go(self, request, response):
+        {go}
+        return response
+
+    def ask(self):
+        asked = self.client.call_async(Trigger.Request())
+        rclpy.spin_until_future_complete(self, asked)
+
+def main():
+    rclpy.init()
+    asker = Asker()
+    {begin}
+    rclpy.spin(asker)
+    {end}
+
+main()
+"""
+STARTED = 'threading.Thread(target=self.ask).start()'
+
+
+@pytest.mark.parametrize('end', ['pass', 'rclpy.shutdown()'])
+@pytest.mark.parametrize(
+    ('go', 'begin', 'lines'),
+    [
+        (STARTED, 'pass', [20]),
+        ('pass', 'asker.asking.start()', [20]),
+        ('pass', 'asker.asking.start()\n    asker.asking.join()', []),
+        ('pass', 'asker.ask()', []),
+    ],
+)
+def test_a_thread_that_spins_for_a_while_beside_main(
+    go: str, begin: str, end: str, lines: list[int]
+) -> None:
+    found = scan_text(ASKING.format(go=go, begin=begin, end=end)).diagnostics
+    assert [each.place.line for each in found if each.slug == 'executor-spun-twice'] == lines

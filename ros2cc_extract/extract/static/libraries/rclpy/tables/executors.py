@@ -231,7 +231,8 @@ def record_spin(
     spin.is_tried, spin.by = bool(world.caught), world.activity
     spin.may_have_loop = _may_have_loop(machine)
     kept_threads.note_goes_on(world)
-    spin.from_callback, spin.over = world.current is not None, world.spins_over
+    spin.from_callback = world.current is not None
+    spin.over = 0 if spin.from_callback else world.spins_over  # followed behind all of main
     known = next((old for old in world.spins.values() if _is_the_same(spin, old)), None)
     known = known or world.spins.setdefault(spin.key, spin)
     known.chains[world.chain[1:]] = None

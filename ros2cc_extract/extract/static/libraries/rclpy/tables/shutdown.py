@@ -16,9 +16,7 @@ from ros2cc_extract.extract.static.python.machine.library_state import PlainStat
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
-    Bound,
     Call,
-    Function,
     Instance,
     Value,
 )
@@ -52,7 +50,7 @@ def context_of_node(machine: RosMachine, receiver: Instance, place: Place) -> Va
 
 def _on_shutdown(machine: RosMachine, receiver: Value, call: Call) -> Value:
     callback = call.argument(0, 'callback')
-    if isinstance(receiver, Instance) and isinstance(callback, (Bound, Function)):
+    if isinstance(receiver, Instance) and callback is not None:
         hooks = receiver.slots.get(_HOOKS, ())
         if callback not in hooks:
             machine.store.write(receiver, _HOOKS, (*hooks, callback))
