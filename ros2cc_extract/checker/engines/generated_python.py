@@ -70,11 +70,12 @@ class SourceWriter:
         self._frame_is_list = False
         self._is_inside = False
         self._writes = False
+        self.tables: dict[tuple[int, ...], str] = {}
         self._handlers: dict[type, Callable[[Any], str]] = {
             Const: lambda node: str(node.low),
             Var: self._var,
             Element: self._element,
-            Table: lambda node: f'{node.values}[{self.value(node.index)}]',
+            Table: self._table,
             Local: self._local,
             LocalElement: lambda node: f'L[{node.base} + {self.value(node.index)}]',
             Unary: self._unary,
@@ -107,6 +108,11 @@ class SourceWriter:
     def _element_shift(self, node: Element) -> str:
         field = self._layout.variables[node.base]
         return f'{field.shift} + {field.width} * {self.value(node.index)}'
+
+    def _table(self, node: Table) -> str:
+        """Each table has a name of its own, in ``tables``: one is read at many places."""
+        name = self.tables.setdefault(node.values, f'_table{len(self.tables)}')
+        return f'{name}[{self.value(node.index)}]'
 
     def _local(self, node: Local) -> str:
         return f'L[{node.slot}]' if self._frame_is_list else f'l{node.slot}'

@@ -200,6 +200,7 @@ class Moving:
         return self._names[name]
 
     def _run(self, source: str) -> None:
+        self._names.update((name, values) for values, name in self._writer.tables.items())
         try:
             exec(compile(source, '<network>', 'exec'), self._names)
         except (SyntaxError, RecursionError, MemoryError):

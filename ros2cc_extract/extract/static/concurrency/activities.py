@@ -16,6 +16,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import ActivityStat
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
 from ros2cc_extract.extract.static.python.machine.machine import THING_STEPS
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.values.exclusive_paths import is_behind
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -39,12 +40,11 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
     saved = (world.in_thread, world.effects, world.held, world.after_spin, world.count)
     path, chain, thread = world.path, world.chain, world.thread
     loops, ready, holds = (world.times, world.round), world.ready, world.holds
-    caught, world.caught = world.caught, ()
-    loop, by_loop, depth = world.loop, world.by_loop, world.thread_depth
-    task, world.loop_task = world.loop_task, None
-    world.thread_depth = len(machine.stack)
+    (caught, world.caught), (loop, world.loop) = (world.caught, ()), (world.loop, None)
+    (task, world.loop_task), by_loop = (world.loop_task, None), world.by_loop
+    depth, world.thread_depth = world.thread_depth, len(machine.stack)
     if not (isinstance(world.activity, ActivityState) and world.activity.on_loop):
-        world.loop, world.by_loop = None, False
+        world.by_loop = False
     world.threads += 1
     world.thread = world.threads
     world.in_thread, world.effects, world.held, world.chain = True, None, (), ()
@@ -58,9 +58,8 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
         world.stopped = False
         world.path, world.chain, world.thread = path, chain, thread
         (world.times, world.round), world.holds = loops, holds
-        world.ready, world.caught = ready, caught
-        world.loop, world.by_loop, world.thread_depth = loop, by_loop, depth
-        world.loop_task = task
+        world.ready, world.caught, world.loop = ready, caught, loop
+        world.loop_task, world.by_loop, world.thread_depth = task, by_loop, depth
 
 
 def begin(
@@ -90,12 +89,14 @@ def begin(
         kind, call.place, target, call, daemon=bool(daemon), site=site, turns=turns
     )
     state.is_daemon, state.pool = daemon, pool
+    is_met_again = world.again or runner in state.runners
     kept_threads.note_begun(world, state, runner)
     _note_start(machine, state, runner)
     note_begun(world, call.place)
     if known is not None:
         _note_again(world, known)
-        known.count = known.count if world.again or runner in known.runners else _more(known)
+        known.count = known.count if is_met_again else _more(known)
+        known.overlaps = known.overlaps or not (is_met_again or _are_over(world, known, runner))
         return
     machine.charge(THING_STEPS)
     state.path, state.count = world.path, _count(world, call.place)
@@ -135,6 +136,12 @@ def _own_text(world: ConcurrentWorld, text: object) -> ActivityState | None:
             return each
         each = each.starts[0].by if each.starts else None
     return None
+
+
+def _are_over(world: ConcurrentWorld, known: ActivityState, runner: Value | None) -> bool:
+    """Whether the program has waited for all that were started before."""
+    over = {id(each.what) for each in world.over if is_behind(each.path, world.path)}
+    return all(id(each) in over for each in known.runners if each is not runner)
 
 
 def _more(known: ActivityState) -> int | Unknown:

@@ -49,6 +49,7 @@ class ActivityState(Doer):
     :param starts: what starts it.
     :param endless: its loop that nothing ends, the end of rclpy included.
     :param until_shutdown: its loop that only the end of rclpy ends.
+    :param overlaps: another one of it is started before the last one is known to be over.
     :param again: where it starts itself anew in each run, on every branch.
     :param is_daemon: the same; ``None`` where that is not known.
     :param spins: how many spins the set-up has called before its start.
@@ -81,6 +82,7 @@ class ActivityState(Doer):
     loops: bool = False
     endless: Place | None = None
     until_shutdown: Place | None = None
+    overlaps: bool = False
     again: Place | None = None
     spins: int = 0
     ends_first: bool = False

@@ -51,6 +51,7 @@ def note_replaced(world: ConcurrentWorld, owner: Value, name: str, old: Value) -
 
 def show_to_callbacks(world: ConcurrentWorld, store: Store) -> None:
     """Callbacks are followed now: they may find what was there while the set-up waited."""
+    store.give_contents_back()
     for (owner, name), met in world.met_meanwhile.items():
         held = owner.slots.get(name)
         if isinstance(held, Value):

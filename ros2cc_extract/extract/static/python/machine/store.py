@@ -29,6 +29,10 @@ Writes = dict[tuple[int, Any], tuple[Heaped, Any, Any, bool]]
 """By owner and slot: both, what the slot holds then, and whether its branch made the owner."""
 
 
+_CONTENTS = ('entries', 'items', 'many')
+"""Slots of collections, see ``containers.py``."""
+
+
 class Store:
     """The log of writes since the start of the run."""
 
@@ -38,6 +42,7 @@ class Store:
         self._opened: list[int] = []
         self._marks: list[int] = []
         self._shown: list[Writes] = []
+        self._before: dict[tuple[int, str], tuple[Heaped, str, Any]] | None = None
 
     @property
     def depth(self) -> int:
@@ -56,7 +61,23 @@ class Store:
         """Set a slot of ``owner``."""
         if self._depth:
             self._trail.append((owner, slot, owner.slots.get(slot, ABSENT)))
+        if self._before is not None and slot in _CONTENTS:
+            self._before.setdefault((id(owner), slot), (owner, slot, owner.slots.get(slot)))
         owner.slots[slot] = value
+
+    def keep_contents(self) -> None:
+        """Others have run: they have found in collections what is taken out from now on."""
+        self._before = self._before or {}
+
+    def give_contents_back(self) -> None:
+        """Others are followed now: put back what was taken out since."""
+        before, self._before = self._before, None
+        for owner, slot, old in (before or {}).values():
+            now = owner.slots.get(slot)
+            if isinstance(old, dict) and isinstance(now, dict):
+                self.write(owner, slot, {**old, **now})
+            elif isinstance(old, tuple) and isinstance(now, tuple):
+                self.write(owner, slot, (*now, *(each for each in old if each not in now)))
 
     def remove(self, owner: Heaped, slot: Any) -> None:
         """Remove a slot of ``owner`` if it is there."""

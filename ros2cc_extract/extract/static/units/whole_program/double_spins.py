@@ -15,6 +15,8 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     ExecutorState,
@@ -23,10 +25,11 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     RosWorld,
     Spin,
 )
+from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value, options_of
 from ros2cc_extract.extract.static.units.whole_program.threads_in_turn import go_in_turn
-from ros2cc_extract.source_locations import Place
+from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.model import GroupType
 
 _EVENTS = 'EventsExecutor'
@@ -38,13 +41,22 @@ def are_concurrent(world: RosWorld, first: Spin, second: Spin) -> bool:
         return False
     if first.thread == second.thread or go_in_turn(world, first.by, second.by):
         return False
-    if first.place == second.place and first.nodes == second.nodes:
-        return False  # the same call, followed once more, and not one text of two threads
+    # A text without a known caller is followed by itself, and where a thread runs it.
+    is_one = None in (first.by, second.by) or first.by is second.by
+    if first.place == second.place and first.nodes == second.nodes and is_one:
+        return False
     if list(world.spins.values()).index(first) < second.over:
         return False
     if first.thread == 0:
         return first.for_ever and second.from_callback
-    return first.for_ever or first.repeated or (second.thread == 0 and second.for_ever)
+    if first.for_ever or first.repeated or (second.thread == 0 and second.for_ever):
+        return True
+    return _lasts(first) and _lasts(second)
+
+
+def _lasts(spin: Spin) -> bool:
+    """Whether it ends with what comes, and not at once."""
+    return spin.how.endswith('spin_until_future_complete')
 
 
 def note_spun_twice(world: RosWorld) -> None:
@@ -61,6 +73,35 @@ def _by_threads(world: RosWorld) -> Iterator[Diagnostic]:
     for first, second in combinations(world.spins.values(), 2):
         if are_concurrent(world, first, second) and _is_ordinary(first.executor):
             yield _by_two_threads(first, second)
+    for spin in world.spins.values():
+        if _is_ordinary(spin.executor) and _comes_again(world, spin):
+            by_same = 'another thread comes to the same call'
+            yield _spun_twice(spin.executor, spin.how, spin.place, by_same, is_same=False)
+
+
+def _comes_again(world: RosWorld, spin: Spin) -> bool:
+    """Whether several threads run one text that spins, and none of them is waited for before."""
+    by = spin.by
+    if not spin.in_thread or by is None or not (spin.for_ever or spin.repeated or _lasts(spin)):
+        return False
+    others = [other for other in spin.beside if not go_in_turn(world, by, other)]
+    if any(by.turns is None or by.turns is not other.turns for other in others):
+        return True
+    if by.count == 1 or by.turns is not None or go_in_turn(world, by, by):
+        return False
+    return by.overlaps or (isinstance(by.count, Unknown) and not _is_joined(world, by))
+
+
+def _is_joined(world: RosWorld, thread: ActivityState) -> bool:
+    """Whether the code that starts it waits for its end without a limit."""
+    runners = {id(runner) for runner in thread.runners}
+    logs = (start.by.effects for start in thread.starts if isinstance(start.by, Doer))
+    blocks = [block for log in logs if log is not None for block in log.blocking]
+    resources = (block.resource for block in blocks if block.seconds is None)
+    in_callback = any(isinstance(r, ResourceRef) and r.number in runners for r in resources)
+    waits = (*world.outside, *(each.outside for each in world.set_up.values()))
+    awaited = (*(over.what for over in world.over), *(wait.client for wait in waits))
+    return in_callback or any(id(what) in runners for what in awaited)
 
 
 def _by_two_threads(first: Spin, second: Spin) -> Diagnostic:
@@ -70,7 +111,8 @@ def _by_two_threads(first: Spin, second: Spin) -> Diagnostic:
     told, rival = (first, second) if is_short else (second, first)
     where = f'({rival.place})'
     if first.place == second.place:
-        where = 'by the same call, with another node'
+        where = 'by the same call'
+        where += '' if first.nodes == second.nodes else ', with another node'
     other = f'another thread spins it {"too" if is_short else "already"} {where}'
     return _spun_twice(told.executor, told.how, told.place, other, is_same)
 

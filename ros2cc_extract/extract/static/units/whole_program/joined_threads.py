@@ -45,6 +45,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.extract.static.units.whole_program.threads_until_shutdown import ends_by_itself
 from ros2cc_extract.spec.effects import POLLING_LOOP, WORKING_LOOP, Act, Blocking
+from ros2cc_extract.spec.model import EntityKind
 
 
 def is_over(spin: Spin, number: int, wait: OutsideWait, world: RosWorld) -> bool:
@@ -74,7 +75,10 @@ def never_joined(
     :param spun: the nodes that other threads spin meanwhile.
     """
     for state in world.activities:
-        if not any(wait.client is runner for runner in state.runners) or state.serves:
+        if not any(wait.client is runner for runner in state.runners):
+            continue
+        if state.serves:
+            yield from (_idle(wait, spin) for spin in _resting(state, wait, world))
             continue
         taken = next((act for act in state.effects.locks if act.name in wait.held), None)
         if taken is not None and not taken.tries and not wait.in_thread:
@@ -281,6 +285,31 @@ def _diagnostic(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
         message=f'{JOIN} waits for a thread that waits in {in_words(block.call)} for '
         f'{awaited}{at}, {why}{when}: {may} forever',
         help=_help(wait, block),
+    )
+
+
+def _resting(state: ActivityState, wait: OutsideWait, world: RosWorld) -> Iterator[Spin]:
+    """Where it may rest for ever: a step without a time-out, of nodes that have no timer."""
+    if wait.in_thread or any(over.what is None for over in wait.over):
+        return
+    for number, spin in enumerate(world.spins.values()):
+        is_step = spin.by is state and spin.timeout is None and spin.how.endswith('spin_once')
+        if is_step and not is_over(spin, number, wait, world):
+            timers = [each for each in world.entities if each.kind is EntityKind.TIMER]
+            if not any(_serves(spin, timer.node) for timer in timers):
+                yield spin
+                return
+
+
+def _idle(wait: OutsideWait, spin: Spin) -> Diagnostic:
+    return Diagnostic(
+        severity=Severity.WARNING,
+        slug='nobody-spins',
+        place=wait.place,
+        message=f'{JOIN} waits for a thread that waits in {spin.how} without a time-out '
+        f'({spin.place}) until something arrives: it may wait forever',
+        help='give the spin a time-out, so that the thread asks again whether to stop; or shut '
+        'the executor down before the join',
     )
 
 

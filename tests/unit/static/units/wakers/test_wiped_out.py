@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ros2cc_extract.extract.static.api import scan_text
+from ros2cc_extract.findings.collect import findings_of
 
 PROGRAM = """
 import threading
@@ -101,3 +102,17 @@ def test_what_comes_by_itself_again_and_again_is_not() -> None:
 def test_a_message_that_brings_nothing_is_of_no_matter() -> None:
     other = LATE.replace('self.pub', 'self.other')
     assert why(other, SENT) is None
+
+
+def warned(asks: str) -> list[tuple[str, int]]:
+    text = PROGRAM.replace('ASKS', asks).replace('ANSWERS', SENT).replace('TICKS', 'pass')
+    units = scan_text(text).units
+    found = findings_of(units, [], [None] * len(units))
+    return [(each.message, each.place.line) for each in found if each.code == 'CC109']
+
+
+def test_the_wait_behind_such_a_clear_is_a_warning() -> None:
+    ((message, line),) = warned(LATE)
+    assert 'event, which is cleared after the message on go is sent' in message
+    assert LATE in PROGRAM.replace('ASKS', LATE).splitlines()[line - 1]
+    assert warned(f'{CLEARED}; {SENT}; {WAITS}') == []

@@ -289,3 +289,64 @@ def test_a_thread_that_has_told_of_its_end_is_joined_at_once(
 ) -> None:
     lines = dict.fromkeys(('first', 'each', 'last', 'heard'), 'print()') | places
     assert _joins(FINISHED.format(**lines, spin=spin)) == told
+
+
+STEPS = """
+import threading
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from std_msgs.msg import String
+
+class Waiter:
+    def __init__(self):
+        self.node = rclpy.create_node('waiter')
+        self.seen = threading.Event()
+        self.node.create_subscription(String, 'topic', self.heard, 10)
+        {timer}
+        self.executor = SingleThreadedExecutor()
+        self.executor.add_node(self.node)
+        self.running = True
+        self.thread = threading.Thread(target=self.spin)
+        self.thread.start()
+
+    def heard(self, msg):
+        self.seen.set()
+
+    def spin(self):
+        while self.running:
+            self.executor.spin_once({timeout})
+
+def main():
+    rclpy.init()
+    waiter = Waiter()
+    waiter.seen.wait(5.0)
+    waiter.running = False
+    {end}
+
+main()
+"""
+TIMER = 'self.node.create_timer(1.0, self.seen.clear)'
+JOINED, DOWN = 'waiter.thread.join()', 'rclpy.shutdown()'
+
+
+@pytest.mark.parametrize(
+    ('timer', 'timeout', 'end', 'told'),
+    [
+        ('', '', JOINED, 1),
+        ('', 'timeout_sec=None', JOINED, 1),
+        ('', 'timeout_sec=0.1', JOINED, 0),
+        (TIMER, '', JOINED, 0),
+        ('', '', f'waiter.executor.shutdown(); {JOINED}', 0),
+        ('', '', f'{DOWN}; {JOINED}', 0),
+        ('', '', f'{JOINED}; {DOWN}', 1),
+    ],
+)
+def test_a_thread_that_steps_without_a_time_out(
+    timer: str, timeout: str, end: str, told: int
+) -> None:
+    found = scan_text(STEPS.format(timer=timer, timeout=timeout, end=end)).diagnostics
+    messages = [each.message for each in found if each.slug == 'nobody-spins']
+    assert messages == told * [
+        'Thread.join waits for a thread that waits in spin_once without a time-out '
+        '(node.py:24:13) until something arrives: it may wait forever'
+    ]

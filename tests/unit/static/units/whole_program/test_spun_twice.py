@@ -151,3 +151,85 @@ def test_a_thread_that_spins_for_a_while_beside_main(
 ) -> None:
     found = scan_text(ASKING.format(go=go, begin=begin, end=end)).diagnostics
     assert [each.place.line for each in found if each.slug == 'executor-spun-twice'] == lines
+
+
+SEVERAL = """
+import threading
+from concurrent.futures import ThreadPoolExecutor
+import rclpy
+from std_srvs.srv import Trigger
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node('asker')
+    client = node.create_client(Trigger, 'state')
+    pool = ThreadPoolExecutor({workers})
+
+    def ask():
+        asked = client.call_async(Trigger.Request())
+        rclpy.spin_until_future_complete(node, asked)
+
+    {does}
+
+main()
+"""
+LISTED = """threads = [threading.Thread(target=ask) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+{joins}"""
+JOINED_LAST = '    for thread in threads:\n        thread.join()'
+IN_TURN = """for _ in range(4):
+        thread = threading.Thread(target=ask)
+        thread.start()
+        thread.join()"""
+BEGUN = 'threading.Thread(target=ask).start()'
+POOLED = 'for _ in range(4):\n        pool.submit(ask)'
+
+
+@pytest.mark.parametrize(
+    ('does', 'workers', 'lines'),
+    [
+        (LISTED.format(joins=JOINED_LAST), 1, [15]),
+        (
+            'threading.Thread(target=ask).start()\n    threading.Thread(target=ask).start()',
+            1,
+            [15],
+        ),
+        ('threading.Thread(target=ask).start()\n    ask()', 1, [15]),
+        (LISTED.format(joins='        thread.join()'), 1, []),
+        (IN_TURN, 1, []),
+        (POOLED, 4, [15]),
+        (POOLED, 1, []),
+        ('ask()\n    ask()', 1, []),
+    ],
+)
+def test_several_threads_that_wait_for_answers_of_one_node(
+    does: str, workers: int, lines: list[int]
+) -> None:
+    found = scan_text(SEVERAL.format(does=does, workers=workers)).diagnostics
+    assert [each.place.line for each in found if each.slug == 'executor-spun-twice'] == lines
+
+
+PUMPED = """
+import asyncio
+import rclpy
+
+async def pump(node):
+    while rclpy.ok():
+        {step}
+
+rclpy.init()
+asyncio.run(pump(rclpy.create_node('pumped')))
+"""
+
+
+@pytest.mark.parametrize(
+    ('step', 'lines'),
+    [
+        ('await asyncio.to_thread(rclpy.spin_until_future_complete, node, rclpy.Future())', []),
+        ('asyncio.to_thread(rclpy.spin_until_future_complete, node, rclpy.Future())', [7]),
+    ],
+)
+def test_a_pool_thread_that_is_awaited_each_time(step: str, lines: list[int]) -> None:
+    found = scan_text(PUMPED.format(step=step)).diagnostics
+    assert [each.place.line for each in found if each.slug == 'executor-spun-twice'] == lines

@@ -250,6 +250,7 @@ class Spin:
     :param over: how many of the spins before it were over then.
     :param is_tried: what rises out of it may be caught.
     :param by: the thread of the program's own that does it.
+    :param beside: other threads that come to it and that it is not over for.
     :param chains: the calls that lead to it.
     :param may_have_loop: a loop of asyncio may run what calls it.
     """
@@ -268,6 +269,7 @@ class Spin:
     over: int = 0
     is_tried: bool = False
     by: ActivityState | None = None
+    beside: list[ActivityState] = field(default_factory=list)
     chains: dict[tuple[Place, ...], None] = field(default_factory=dict)
     may_have_loop: bool = False
 

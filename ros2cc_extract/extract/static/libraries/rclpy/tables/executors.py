@@ -9,7 +9,7 @@ number of threads is the number of CPUs the process may use).
 from __future__ import annotations
 
 import ast
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from ros2cc_extract.extract.static.concurrency import activities
 from ros2cc_extract.extract.static.concurrency.accesses import kept_threads
@@ -235,11 +235,15 @@ def record_spin(
     spin.over = 0 if spin.from_callback else world.spins_over  # followed behind all of main
     known = next((old for old in world.spins.values() if _is_the_same(spin, old)), None)
     known = known or world.spins.setdefault(spin.key, spin)
+    if world.when is When.START:
+        _note_beside(known, spin, world.spins.values())
     known.chains[world.chain[1:]] = None
     for node in nodes:
         node.state.spun, node.state.loop = True, world.loop
     if world.in_thread:
         return
+    if world.when is When.START:
+        machine.store.keep_contents()
     # Callbacks of a pool go on beside what comes behind a spin that ends.
     world.main_spins += world.when is When.START and (ever or executor.state.threads == 1)
     if ever:
@@ -253,6 +257,15 @@ def _may_have_loop(machine: RosMachine) -> bool:
     is_coroutine = any(isinstance(call.node, ast.AsyncFunctionDef) for call in calls)
     is_of_others = world.by_loop or world.when is When.LATER
     return world.loop is not None or is_of_others or is_coroutine
+
+
+def _note_beside(known: Spin, again: Spin, spins: Collection[Spin]) -> None:
+    """One call is met again, perhaps by another thread, and perhaps while it is not over."""
+    by = again.by
+    if known is not again and known.in_thread and by is not None and by not in known.beside:
+        is_other = by is not known.by or len(by.runners) > 1
+        if is_other and again.over <= list(spins).index(known):
+            known.beside.append(by)
 
 
 def _is_the_same(spin: Spin, other: Spin) -> bool:
