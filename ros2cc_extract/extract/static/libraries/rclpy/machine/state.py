@@ -253,6 +253,7 @@ class Spin:
     :param takes: it adds its node to the executor, out of any other, and removes it at its end.
     :param beside: other threads that come to it and that it is not over for.
     :param chains: the calls that lead to it.
+    :param may_have_loop: a loop of asyncio may run what calls it.
     """
 
     executor: Instance
@@ -272,6 +273,7 @@ class Spin:
     takes: bool = False
     beside: list[ActivityState] = field(default_factory=list)
     chains: dict[tuple[Place, ...], None] = field(default_factory=dict)
+    may_have_loop: bool = False
 
     @property
     def key(self) -> object:
