@@ -69,13 +69,13 @@ _MARKS = tuple(Mark)
 DEADLOCK, SERIAL = 'deadlock', 'serial'
 RCLPY = 'rclpy'
 """The profile that models rclpy's own executors."""
-_FOR_EVER = frozenset(f'CC{number}' for number in (*range(101, 120), 122))
+_FOR_EVER = frozenset(f'CC{number}' for number in (*range(101, 120), 122, 127))
 _CODES = {
     Promise.DEADLOCK: {'CC101', 'CC102', 'CC103', 'CC104', 'CC105', 'CC106', 'CC111', 'CC115'},
     Promise.WAITS: {*_FOR_EVER - {'CC107', 'CC117', 'CC119'}, 'CC204', 'CC205', 'CC206'},
     Promise.STARVATION: {
         *(f'CC20{number}' for number in range(1, 9)),
-        *('CC103', 'CC113', 'CC116', 'CC118', 'CC405', 'CC406', 'CC407'),
+        *('CC103', 'CC113', 'CC116', 'CC118', 'CC127', 'CC405', 'CC406', 'CC407'),
     },
     Promise.RACES: {'CC107', 'CC117', 'CC119', *(f'CC30{number}' for number in range(1, 6))},
     Promise.SETTINGS: {f'CC40{number}' for number in range(1, 8)},

@@ -134,8 +134,8 @@ DOORS = {
         'builtins.builtin_',
     ),
     'concurrency': ('',),
-    'libraries': ('model', 'standard.', 'rclpy.'),
-    'units': ('units', 'entity_aliases', 'whole_program.'),
+    'libraries': ('model', 'standard.', 'rclpy.', 'qt.'),
+    'units': ('units', 'entity_aliases', 'event_loops.', 'whole_program.'),
     'packaging': ('api', 'declarations'),
     'scan': ('scanning',),
 }

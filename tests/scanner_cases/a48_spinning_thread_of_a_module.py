@@ -27,6 +27,6 @@ executor.add_node(camera)
 threading.Thread(target=spin, daemon=True).start()
 
 # expect:
-# unit camera: MultiThreadedExecutor x2 spin in thread, spin
+# unit camera: MultiThreadedExecutor x2 spin in thread, __main__
 #   group camera_default EXCLUSIVE default
 #   timer look in camera_default every 1

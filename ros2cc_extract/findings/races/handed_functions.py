@@ -36,7 +36,9 @@ def races_with_others(unit: Spec) -> Iterator[str]:
     known = (one for one in threads if one.unresolved is None)
     doers: tuple[Doer, ...] = (*shared_by(context), *known)
     for handed in unit.handed:
-        others = [doer for doer in doers if not _take_turns(handed, doer)]
+        others = [
+            doer for doer in doers if not _is_same(handed, doer) and not _take_turns(handed, doer)
+        ]
         if is_one_thread(unit.executor) and _is_in_callback(handed):
             others = [doer for doer in others if isinstance(doer, Activity)]
         for race in races_across((handed, doer) for doer in others):
@@ -44,6 +46,12 @@ def races_with_others(unit: Spec) -> Iterator[str]:
                 met = {use.doer.name: use.doer for use in (race.first, *race.others)}
                 names = [called(each) for each in met.values() if each.name != handed.name]
                 yield (f'{_words(handed)} beside {", ".join(names)}, and both use {race.names[0]}')
+
+
+def _is_same(handed: Activity, doer: Doer) -> bool:
+    """Whether it is what is known of it beside: that a web server runs it on a thread."""
+    is_code = isinstance(doer, Activity) and doer.function == handed.function
+    return is_code and doer.source == handed.source
 
 
 def races_with_threads_left(unit: Spec) -> Iterator[str]:

@@ -29,6 +29,7 @@ from ros2cc_extract.findings.rules.executor_use import (
     executor_spun_twice,
     foreign_loop,
     lost_task,
+    running_loop,
     set_up,
     shutdown,
 )
@@ -89,6 +90,7 @@ RULES: tuple[Rule, ...] = (
     callback_info.OF_MESSAGE,
     shutdown.ANSWER_AFTER_SHUTDOWN,
     callback_info.OF_TIMER,
+    running_loop.RULE,
     long_sleep.RULE,
     group_overload.RULE,
     execute_holds_thread.RULE,

@@ -41,6 +41,10 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
     path, chain, thread = world.path, world.chain, world.thread
     loops, ready, holds = (world.times, world.round), world.ready, world.holds
     (caught, world.caught), (loop, world.loop) = (world.caught, ()), (world.loop, None)
+    (task, world.loop_task), by_loop = (world.loop_task, None), world.by_loop
+    depth, world.thread_depth = world.thread_depth, len(machine.stack)
+    if not (isinstance(world.activity, ActivityState) and world.activity.on_loop):
+        world.by_loop = False
     world.threads += 1
     world.thread = world.threads
     world.in_thread, world.effects, world.held, world.chain = True, None, (), ()
@@ -55,6 +59,7 @@ def run_in_thread(machine: ConcurrentMachine, target: Value, call: Call) -> None
         world.path, world.chain, world.thread = path, chain, thread
         (world.times, world.round), world.holds = loops, holds
         world.ready, world.caught, world.loop = ready, caught, loop
+        world.loop_task, world.by_loop, world.thread_depth = task, by_loop, depth
 
 
 def begin(
@@ -65,7 +70,7 @@ def begin(
     runner: Value | None = None,
     *,
     daemon: bool | None = False,
-    on_loop: bool = False,
+    on_loop: object = None,
     turns: object = None,
     pool: Instance | None = None,
 ) -> None:
@@ -73,6 +78,7 @@ def begin(
     Start an activity.
 
     :param runner: the thread or future that stands for it.
+    :param on_loop: what is equal for all that the loop runs which runs it.
     :param turns: as of an ``ActivityState``, and ``pool`` too.
     """
     world = machine.world
@@ -94,7 +100,8 @@ def begin(
         return
     machine.charge(THING_STEPS)
     state.path, state.count = world.path, _count(world, call.place)
-    state.thread, state.on_loop = world.threads + 1, on_loop
+    state.thread, state.on_loop = world.threads + 1, on_loop is not None
+    state.loop = on_loop
     state.spins = world.main_spins
     world.activities.append(state)
     outer, world.activity = world.activity, state

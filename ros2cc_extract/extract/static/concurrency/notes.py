@@ -19,9 +19,11 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     torn_state,
     torn_updates,
     unreleased_locks,
+    web_servers,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.concurrency.effects import Effects
+from ros2cc_extract.extract.static.concurrency.waits import loop_tasks
 from ros2cc_extract.extract.static.concurrency.waits.loops import (
     counted_tests,
     polling_loops,
@@ -38,7 +40,10 @@ from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects.escape import reached
 from ros2cc_extract.extract.static.python.values.containers import Generator
 from ros2cc_extract.extract.static.python.values.values import (
+    Call,
+    Coroutine,
     Instance,
+    Mystery,
     Value,
     options_of,
 )
@@ -48,6 +53,32 @@ from ros2cc_extract.spec.effects import BY_INDEX, COPIED
 
 class Notes(Effects):
     """Beside accesses, locks and waits: tests, loops, and the ways out of functions."""
+
+    def note_acquire(self, lock: Value, place: Place, *, may_fail: bool = False) -> None:
+        """A task of a loop may take it while another one keeps it."""
+        super().note_acquire(lock, place, may_fail=may_fail)
+        if not may_fail:
+            loop_tasks.note_taken(self.world, lock, place)
+
+    def note_await(self, value: Value, place: Place) -> None:
+        """A task of a loop waits; its own coroutines are only calls."""
+        loop_tasks.note_awaited(self.world, value)
+        if not isinstance(value, Coroutine):
+            self.note_suspended(place)
+        super().note_await(value, place)
+
+    def note_suspended(self, place: Place) -> None:
+        """A task of a loop lets others run."""
+        loop_tasks.note_suspended(self.world, place)
+
+    def note_library_call(self, name: str, place: Place) -> None:
+        """A web server may be run."""
+        web_servers.note_run(self.world, name, '', place)
+
+    def note_unknown_call(self, function: Mystery, call: Call) -> None:
+        """A web server may be run; or it waits by its name."""
+        web_servers.note_run(self.world, function.text, function.unknown.reason, call.place)
+        super().note_unknown_call(function, call)
 
     def note_part(self, target: ast.expr, frame: Frame, how: str = '') -> None:
         """An attribute or item of an object is stored, or a collection in it changes in place."""
@@ -73,6 +104,8 @@ class Notes(Effects):
 
     def note_for(self, node: ast.For | ast.AsyncFor, frame: Frame) -> None:
         """It goes over a collection, itself or by its indices."""
+        if isinstance(node, ast.AsyncFor):
+            self.note_suspended(frame.place(node.iter))
         self.note_iteration(node.iter, frame)
         self._note_step(node.iter, frame)
         rows = iterations.by_index(node) if isinstance(node, ast.For) else None

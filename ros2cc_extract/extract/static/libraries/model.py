@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from functools import cached_property, lru_cache
 
+from ros2cc_extract.extract.static.libraries.qt import threads as qt_threads
 from ros2cc_extract.extract.static.libraries.rclpy.machine.waits import WAITS
 from ros2cc_extract.extract.static.libraries.rclpy.tables import (
     actions,
@@ -124,6 +125,7 @@ def model() -> LibraryModel:
             servers.TABLE,
             queues.TABLE,
             outside_calls.TABLE,
+            qt_threads.TABLE,
             groups.TABLE,
             clocks.TABLE,
             nodes.TABLE,

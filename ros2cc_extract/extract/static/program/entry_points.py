@@ -95,17 +95,17 @@ def _is_guard(node: ast.stmt) -> bool:
 def _runs(node: ast.stmt) -> bool:
     if isinstance(node, (*_FUNCTIONS, ast.ClassDef, ast.Import, ast.ImportFrom)):
         return False
-    if isinstance(node, ast.Expr) and (_only_call(node) == 'main' or _runs_loop(node.value)):
+    if isinstance(node, ast.Expr) and (_only_call(node) == 'main' or _is_of_program(node.value)):
         return True
     return _spins(node)
 
 
-def _runs_loop(value: ast.expr) -> bool:
-    """Whether it is a call of ``asyncio.run(…)``."""
-    function = value.func if isinstance(value, ast.Call) else None
-    is_run = isinstance(function, ast.Attribute) and function.attr == 'run'
-    owner = function.value if is_run and isinstance(function, ast.Attribute) else None
-    return isinstance(owner, ast.Name) and owner.id == 'asyncio'
+_OF_PROGRAMS = frozenset({'asyncio.run', 'rclpy.init'})
+
+
+def _is_of_program(value: ast.expr) -> bool:
+    """Whether it is a call that only a program makes as it begins."""
+    return isinstance(value, ast.Call) and ast.unparse(value.func) in _OF_PROGRAMS
 
 
 def _script_label(tree: ast.Module) -> str:

@@ -7,10 +7,19 @@ the data that they touch; nothing else that they do changes what is known.
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
+from contextlib import nullcontext
 from typing import Any
 
+from ros2cc_extract.extract.static.concurrency.accesses.web_servers import (
+    answers,
+    is_called_once,
+)
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.waits.loop_tasks import LoopTask, as_root
+from ros2cc_extract.extract.static.libraries.qt.handlers import handlers_of
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.python.values.unknown_callers import unknown_arguments
 from ros2cc_extract.extract.static.python.values.values import (
     Bound,
@@ -31,19 +40,32 @@ _CONTAINERS = (list, dict, set)
 
 
 def follow_handed(machine: RosInterpreter) -> None:
-    """Follow each of them once, unless code of the program calls it too or it makes entities."""
-    for value, function, place, name in _handed(machine):
+    """
+    Follow each of them once, unless code of the program calls it too.
+
+    Nor one that makes entities, which have not been followed as such.
+    """
+    for value, function, place, name, whose in _handed(machine):
         skip = 1 if isinstance(value, Bound) else 0
         is_partial = isinstance(value, Partial)
         call = Call(place) if is_partial else unknown_arguments(function, place, skip)
         state = ActivityState(ActivityKind.THREAD, place, value, call)
-        _follow(machine, state)
+        _follow(machine, state, function, name)
         machine.world.handed_on.append((state, name))
+        if answers(name, whose):
+            machine.world.answering.add(id(state))
 
 
-def _handed(machine: RosInterpreter) -> Iterator[tuple[Value, Function, Place, str]]:
+def _handed(machine: RosInterpreter) -> Iterator[tuple[Value, Function, Place, str, str]]:
     seen = set[tuple[int, int]]()
-    for value, place, name in machine.world.handed[:MOST_CALLBACKS]:
+    world = machine.world
+    followed = _of_unknown_code(world)
+    overriding = (
+        (handler, handler.function.place, base, '')
+        for instance in world.instances
+        for handler, base in handlers_of(instance)
+    )
+    for value, place, name, whose in (*world.handed[:MOST_CALLBACKS], *overriding):
         inner = value
         while isinstance(inner, Partial):
             inner = inner.function
@@ -52,21 +74,27 @@ def _handed(machine: RosInterpreter) -> Iterator[tuple[Value, Function, Place, s
         if not isinstance(function, Function) or (id(function.node), id(receiver)) in seen:
             continue
         seen.add((id(function.node), id(receiver)))
-        is_by_name = name.endswith((BY_NAME, BY_CALLBACK))
-        if (is_by_name or _lacks_caller(machine, function)) and not may_make_entities(
-            machine.world, function.node
-        ):
-            yield value, function, place, name
+        is_followed = id(function.node) in followed
+        is_new = id(function.node) not in world.called or name.endswith((BY_NAME, BY_CALLBACK))
+        if is_followed or (is_new and not may_make_entities(world, function.node)):
+            yield value, function, place, name, whose
 
 
-def _lacks_caller(machine: RosInterpreter, function: Function) -> bool:
-    """Whether no code of the program calls it; what was followed all the same may be."""
-    world, number = machine.world, id(function.node)
-    is_followed = number in world.without_caller or number in world.escaped_to_unknown
-    return number not in world.called or is_followed
+def _of_unknown_code(world: RosWorld) -> frozenset[int]:
+    """What was followed all the same, as unknown code may call it, and what that calls alone."""
+    uncalled = world.without_caller.keys()
+    return frozenset(world.escaped_to_unknown | world.called_later | uncalled)
 
 
-def _follow(machine: RosInterpreter, state: ActivityState) -> None:
+_OTHERS = 'loop of code that is not scanned'
+
+
+def _is_coroutine(function: Function) -> bool:
+    return isinstance(function.node, ast.AsyncFunctionDef)
+
+
+def _follow(machine: RosInterpreter, state: ActivityState, function: Function, name: str) -> None:
+    """A coroutine of a web server is a task of its loop, which may run it for several clients."""
     world = machine.world
     kept = _contents(world)
 
@@ -81,9 +109,14 @@ def _follow(machine: RosInterpreter, state: ActivityState) -> None:
             machine.run_if_coroutine(machine.call(state.target, state.call), state.place)
         machine.store.close_branch(mark)
 
-    guarded(machine, follow, state.place)
+    many = not is_called_once(name)
+    task = LoopTask(function.name, _OTHERS, many=many) if _is_coroutine(function) else None
+    with as_root(world, id(state), task) if task is not None else nullcontext():
+        guarded(machine, follow, state.place)
     world.only_data = False
     _put_back(kept)
+    if task is not None:
+        world.loop_roots[id(state)] = task
 
 
 def _contents(world: Any) -> list[tuple[Any, Any]]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 
 from ros2cc_extract.extract.static.concurrency.accesses.signal_locks import signals_of
@@ -48,12 +50,18 @@ from ros2cc_extract.extract.static.scan.handed_functions import follow_handed
 from ros2cc_extract.extract.static.scan.ros_interpreter import RosInterpreter
 from ros2cc_extract.extract.static.scan.test_programs import PREPARING, begin_test, end_test
 from ros2cc_extract.extract.static.scan.texts_that_act import leads_to_waits, may_make_entities
+from ros2cc_extract.extract.static.units.event_loops.foreign_loop_calls import (
+    note_foreign_loops,
+    note_missing_loops,
+)
+from ros2cc_extract.extract.static.units.event_loops.locks_over_awaits import (
+    note_locks_over_awaits,
+)
 from ros2cc_extract.extract.static.units.whole_program.double_spins import note_spun_twice
 from ros2cc_extract.extract.static.units.whole_program.endless_readers import (
     note_endless_readers,
 )
 from ros2cc_extract.extract.static.units.whole_program.ends_while_served import note_ends
-from ros2cc_extract.extract.static.units.whole_program.foreign_loop_calls import note_foreign_loops
 from ros2cc_extract.extract.static.units.whole_program.nodes_taken_by_threads import (
     note_taken_by_threads,
 )
@@ -116,8 +124,10 @@ def _run_entry(project: Project, entry: Entry, signals: frozenset[Place]) -> Ros
     note_taken(machine.world)
     note_ends(machine.world)
     note_foreign_loops(machine.world)
+    note_missing_loops(machine.world)
     note_endless_readers(machine.world)
     follow_handed(machine)
+    note_locks_over_awaits(machine.world)
     return machine
 
 
@@ -149,7 +159,16 @@ def _run_escaped_one(
         )
         machine.run_if_coroutine(machine.call(value, call), place)
 
-    guarded(machine, follow, place)
+    with _called_later(machine.world):
+        guarded(machine, follow, place)
+
+
+@contextmanager
+def _called_later(world: RosWorld) -> Iterator[None]:
+    """What is called first inside has no known caller but what unknown code calls."""
+    before = frozenset(world.called)
+    yield
+    world.called_later |= world.called.keys() - before
 
 
 def run_rest_of_instances(machine: RosInterpreter) -> None:
@@ -309,7 +328,8 @@ def _run_later(machine: RosInterpreter, instance: Instance, name: str, method: F
         result = machine.call(target, call)
         machine.run_if_coroutine(result, place)
 
-    guarded(machine, follow, place)
+    with _called_later(machine.world):
+        guarded(machine, follow, place)
     if is_test(name):
         end_test(machine)
     machine.world.called[id(method.node)] = method

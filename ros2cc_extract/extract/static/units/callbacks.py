@@ -30,7 +30,7 @@ from ros2cc_extract.extract.static.units.callback_names import (
 )
 from ros2cc_extract.extract.static.units.entity_aliases import same_on_a_ghost
 from ros2cc_extract.extract.static.units.executor import Unit, executor_of
-from ros2cc_extract.extract.static.units.handed_functions import handed_to_others
+from ros2cc_extract.extract.static.units.handed_functions import handed_to_others, that_answer
 from ros2cc_extract.extract.static.units.set_up_waits import named_waits
 from ros2cc_extract.extract.static.units.torn_messages import pieces_of
 from ros2cc_extract.extract.static.units.unused_groups import unused_groups
@@ -105,14 +105,16 @@ class UnitBuilder:
         executor_name = self._taken.take(self._unit.executor_label)
         executor = executor_of(self._unit, executor_name, threads, entry, self._world)
         with_waits, activities, set_up = self._with_waits(callbacks, entities, executor)
-        handed = handed_to_others(
-            self._world, self._nodes, self._node_names, self._taken, executor
-        )
+        handed = self._handed(executor)
+        answering = that_answer(handed, activities, self._world)
         return Spec(
             name=name,
             callbacks=with_waits,
-            activities=activities,
-            handed=handed if self._unit.executor is not None else (),
+            activities=(*activities, *answering),
+            handed=tuple(
+                replace(each, name=self._taken.take(each.name)) if runs_beside else each
+                for each, runs_beside in handed
+            ),
             set_up=set_up,
             groups=tuple(groups),
             executor=executor,
@@ -122,6 +124,14 @@ class UnitBuilder:
             entry=entry,
             unresolved=tuple(self._facts),
         )
+
+    def _handed(self, executor: Executor) -> tuple[tuple[Activity, bool], ...]:
+        """Functions that code which is not scanned has, where something serves the nodes."""
+        if self._unit.executor is None:
+            return ()
+        is_only = self._unit.is_only
+        names, taken = self._node_names, self._taken
+        return handed_to_others(self._world, self._nodes, names, taken, executor, is_only=is_only)
 
     def _name_nodes(self) -> list[str]:
         names = Names()

@@ -1,4 +1,8 @@
-"""CC115: a lock is held over a wait that only ends when another doer has got that lock."""
+"""
+CC115: a lock is held over a wait that only ends when another doer has got that lock.
+
+What concerns tasks of an asyncio loop is found by the extractor.
+"""
 
 from __future__ import annotations
 
@@ -116,14 +120,19 @@ RULE = Rule(
     title='Lock held over a wait that others must end',
     what='A callback waits for others while it holds a lock: in a synchronous call, for an '
     'event, at an `await` or in a nested spin. A callback that must run first, or that runs '
-    'inside the spin, takes the same lock. Neither can continue.',
+    'inside the spin, takes the same lock. Neither can continue. The same holds for a task of an '
+    'asyncio loop that keeps a `threading.Lock` over an `await`, while another task of that loop, '
+    'another run of the same one, or a callback that the loop spins takes it.',
     why='A callback that waits for a lock keeps its thread and its mutually exclusive group. In '
     'a nested spin of a single-threaded executor it even sits on the stack above the callback '
     'that holds the lock. If the deadlock needs several runs of one reentrant callback at the '
     'same time, it is a warning on one thread, and a note where they must fill a pool. The model '
     'of profile `rclpy` decides, and the run is shown. Semaphores, your own lock classes and '
     'locks that are only tried are not checked; an `RLock` is checked where another thread waits '
-    'for it. Sources: Python, `threading`; rclpy 7.1.6 and 9.1.2, `executors.py`, `client.py`.',
+    'for it. All tasks of an asyncio loop have one thread, so one that waits for a lock holds up '
+    'the task that has it (an error for two known tasks, a warning where one must run several '
+    'times at once). Sources: Python, `threading`, `asyncio/events.py`; rclpy 7.1.6 and 9.1.2, '
+    '`executors.py`, `client.py`.',
     bad="""\
 class Planner(Node):
     def replan(self):                       # a timer

@@ -14,8 +14,9 @@ RULE = Rule(
     'runs. Or a callback of an `AsyncNode`, or the program beside it, starts a task by '
     '`asyncio.create_task` or `asyncio.ensure_future` and keeps it nowhere: an exception in the '
     'task ends nothing and is reported at some later time, and the garbage collector may destroy '
-    'the task while it waits. Or a callback sends a request and asks at once for the `result()` '
-    'of its future: that is None, as no answer has come.',
+    'the task while it waits. Or a callback on the main thread gives a coroutine to '
+    '`asyncio.ensure_future`, and no loop runs there. Or a callback sends a request and asks '
+    'at once for the `result()` of its future: that is None, as no answer has come.',
     why='Calling a coroutine function only makes a coroutine; `await` or a task runs it. A loop '
     'keeps weak references to its tasks, and a task raises its exception where it is awaited. '
     '`Future.result()` of rclpy does not wait. '

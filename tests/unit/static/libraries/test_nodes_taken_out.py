@@ -79,7 +79,7 @@ class Tour(Node):
         self.thread.start()
 
     def drive(self):
-        {spins}(self, self.client.call_async(Trigger.Request()))
+        {spins}
 
 def main():
     rclpy.init()
@@ -91,15 +91,18 @@ def main():
 
 main()
 """
-SPINS = 'rclpy.spin_until_future_complete'
+SPINS = 'rclpy.spin_until_future_complete(self, self.client.call_async(Trigger.Request()))'
+
+OWN = 'rclpy.spin_once(self, executor=SingleThreadedExecutor())'
 
 
 @pytest.mark.parametrize(
     ('spins', 'first', 'lines'),
     [
         (SPINS, 'pass', [17]),
+        (OWN, 'pass', [17]),
         (SPINS, 'tour.thread.join()', []),  # over before another executor has the node
-        ('print', 'pass', []),
+        ('print(self)', 'pass', []),
         (SPINS, 'tour = rclpy.create_node("other")', []),
     ],
 )

@@ -11,6 +11,7 @@ from dataclasses import field
 from typing import Any
 
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
+    LoopAsk,
     LoopRun,
     LoopTouch,
     Waking,
@@ -59,7 +60,8 @@ class ActivityState(Doer):
     :param pool: the pool whose threads run it.
     :param site: equal for one start that is met again.
     :param wakes: what it does to end waits, as it was seen in the set-up, and what it puts.
-    :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it.
+    :param thread: as ``World.thread`` counts them; ``on_loop`` where a loop of asyncio has it,
+        and ``loop`` is equal for what one loop has.
     :param alone: the attributes it is kept in, of which each start has found that the thread there
         has ended; with what starts it, and the holds of locks from that test on.
     :param left: attributes that it has itself emptied by now.
@@ -92,6 +94,7 @@ class ActivityState(Doer):
     wakes: list[tuple[Value, Word, Place, Value | None]] = field(default_factory=list)
     thread: int = 0
     on_loop: bool = False
+    loop: object = None
     turns: object = None
     pool: Instance | None = None
     alone: dict[KeptIn, tuple[tuple[Doer | None, frozenset[tuple[str, int]]], ...]] | None = None
@@ -215,7 +218,8 @@ class ConcurrentWorld(World):
 
     :param activity: the thread or the part of the main program that is followed.
     :param spins_over: how many of the spins have ended for sure.
-    :param thread: the thread that is followed, 0 for that of the set-up; ``threads`` counts them.
+    :param thread: the thread that is followed, 0 for that of the set-up; ``threads`` counts them,
+        and ``thread_depth`` is how many calls led to its start.
     :param wakings: what is done to an object that others may wait on, by its identity.
     :param asked: marks of questions that the function has asked.
     :param made_at: identities of the objects that others may wait on, by the place they come from.
@@ -223,13 +227,19 @@ class ConcurrentWorld(World):
         after the spin has ended, with ``None``.
     :param writes_beside: data that the set-up writes when it has started a thread, or has spun;
         ``main_writes`` that with the threads which it has surely waited for by each write.
-    :param handed_on: functions that code which is not scanned has, as if each were a thread.
+    :param handed_on: functions that code which is not scanned has, as if each were a thread;
+        ``answering`` those of them, by identity, by which a web server answers.
+    :param servers: the threads that run web servers, and where.
     :param cleared: events that code clears: which and where, and how many entities there were.
     :param surely_cleared: the same of those that clear them on all their branches.
     :param by_loop: a loop of asyncio does what is followed, in its own thread.
     :param cancelled: where futures are cancelled, by where they are made.
-    :param loop_runs: what runs one; ``loop_touches`` what is done to what belongs to one, and
-        ``awaited_of_loops`` the queues and events that some coroutine awaits.
+    :param loop_runs: what runs one; ``loop_touches`` what is done to what belongs to one,
+        ``loop_asks`` what needs one in its thread, and ``awaited_of_loops`` the queues and events
+        that some coroutine awaits.
+    :param loop_task: the task of such a loop that is followed, see ``loop_tasks.py``;
+        ``loop_roots`` all that no other one has made, and ``loop_steps`` numbers what they do.
+    :param sets_loops: some code gives its thread a loop.
     :param lost_wakes: what ends waits for an attribute of that name of what is not known.
     :param given: objects that were handed to code which is not followed, with the reason.
     :param kept_in: the attribute that an object others may wait on was stored in last, and
@@ -300,6 +310,11 @@ class ConcurrentWorld(World):
     by_loop: bool = False
     loop_runs: list[LoopRun] = field(default_factory=list)
     loop_touches: list[LoopTouch] = field(default_factory=list)
+    loop_asks: list[LoopAsk] = field(default_factory=list)
+    loop_task: Any = None
+    loop_roots: dict[object, Any] = field(default_factory=dict)
+    loop_steps: int = 0
+    sets_loops: bool = False
     cancelled: dict[Place, Place] = field(default_factory=dict)
     awaited_of_loops: list[Value] = field(default_factory=list)
     lost_wakes: dict[tuple[str, Word], list[Place]] = field(default_factory=dict)
@@ -341,9 +356,12 @@ class ConcurrentWorld(World):
     spins_over: int = 0
     thread: int = 0
     threads: int = 0
+    thread_depth: int = 0
     exit_hooks: list[tuple[Value, Call]] = field(default_factory=list)
     signal_handlers: list[ActivityState] = field(default_factory=list)
     handed_on: list[tuple[ActivityState, str]] = field(default_factory=list)
+    servers: list[tuple[int, Place]] = field(default_factory=list)
+    answering: set[int] = field(default_factory=set)
     main_takes: list[tuple[str, Place, int]] = field(default_factory=list)
     interruptible: set[int] = field(default_factory=set)
     served: dict[int, Place] = field(default_factory=dict)

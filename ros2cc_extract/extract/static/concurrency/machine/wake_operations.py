@@ -220,3 +220,18 @@ class LoopTouch:
         """Whether it is the same call of the same object by the same doer."""
         is_call = self.place == other.place and self.doer is other.doer
         return is_call and self.thing is other.thing
+
+
+@dataclass(frozen=True, eq=False)
+class LoopAsk:
+    """
+    A callback calls what needs a loop of asyncio in its thread, and does not catch that none runs.
+
+    :param how: the function of asyncio.
+    :param is_any: a loop is enough that is not running, as the main thread has one.
+    """
+
+    how: str
+    doer: object
+    place: Place
+    is_any: bool

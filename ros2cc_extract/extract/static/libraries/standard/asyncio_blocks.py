@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import taking_of
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.waits import loop_tasks
 from ros2cc_extract.extract.static.libraries.standard.asyncio_loops import (
     STARTED,
     coroutine_of,
@@ -63,17 +64,21 @@ def _task_here(coroutine: Coroutine, call: Call) -> Instance:
     task.state = PlainState(OF_LOOP, place=call.place)
 
     def awaited(machine: ConcurrentMachine, _: Value, inner: Call) -> Value:
-        return machine.await_value(coroutine, inner.place)
+        made = loop_tasks.child_of(machine.world, coroutine.function.name)
+        with loop_tasks.followed_as(machine.world, made):
+            return machine.await_value(coroutine, inner.place)
 
     task.slots[AWAITED], task.slots[STARTED] = Native('asyncio.Task', awaited), NONE
     return task
 
 
 def _leave_group(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    machine.note_suspended(call.place)
     if isinstance(receiver, Instance):
         for task in receiver.slots.get(_TASKS, ()):
             if isinstance(task, Instance):
                 machine.await_value(task, call.place)
+    loop_tasks.end_all(machine.world)
     return NONE
 
 

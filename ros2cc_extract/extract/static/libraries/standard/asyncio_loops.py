@@ -9,18 +9,25 @@ does not), ``asyncio/queues.py``; library reference, *Developing with asyncio*.
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
-from ros2cc_extract.extract.static.concurrency.machine.wake_operations import LoopRun, LoopTouch
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
+    LoopRun,
+    LoopTouch,
+)
+from ros2cc_extract.extract.static.concurrency.waits import loop_tasks
 from ros2cc_extract.extract.static.libraries.standard.futures import (
     LOOP,
     RUNS,
+    key_of_loop,
     run_in_executor,
 )
+from ros2cc_extract.extract.static.libraries.standard.loop_asks import ASKED, needing
 from ros2cc_extract.extract.static.libraries.standard.queue_items import give_items
 from ros2cc_extract.extract.static.libraries.standard.queues import QUEUE_METHODS, may_be_full
 from ros2cc_extract.extract.static.libraries.standard.queues import init as init_queue
@@ -53,9 +60,6 @@ from ros2cc_extract.spec.effects import AWAIT
 from ros2cc_extract.spec.model import ActivityKind, When
 
 _OWN_CODE = (Function, Bound, Partial)
-_ASKED = -1
-"""Among the identities of ``World.asked``: whether a loop runs."""
-
 IN_TASK = '__in_task__'
 """Slot of a coroutine of a library that others run beside: what it does as a task."""
 STARTED = '__started__'
@@ -82,7 +86,7 @@ def _note_touch(machine: ConcurrentMachine, thing: Value, how: str, call: Call) 
     """Note that something of a loop is touched; the thread that does it is found after the run."""
     world = machine.world
     doer = world.activity or (world.current if world.effects is not None else None)
-    if world.by_loop or _ASKED in world.asked or doer is None or not isinstance(thing, Instance):
+    if world.by_loop or ASKED in world.asked or doer is None or not isinstance(thing, Instance):
         return
     touch = LoopTouch(how, thing, doer, call.place)
     if not any(touch.is_same(other) for other in world.loop_touches):
@@ -93,7 +97,9 @@ def _run_coroutine(machine: ConcurrentMachine, receiver: Value, call: Call) -> V
     """A loop of asyncio runs it, here and now; what it awaits holds the thread."""
     world = machine.world
     before, world.on_loop = world.on_loop, world.in_callback
-    outer, world.loop = world.loop, world.loop if world.in_callback else call.place
+    outer = world.loop
+    if outer is None and not world.in_callback:
+        world.loop = call.place
     try:
         with _by_loop(machine):
             results = [machine.await_value(arg, call.place) for arg in call.args]
@@ -104,7 +110,33 @@ def _run_coroutine(machine: ConcurrentMachine, receiver: Value, call: Call) -> V
 
 def _run_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     _note_run(machine, receiver, call.place)
-    return _run_coroutine(machine, receiver, call)
+    world = machine.world
+    loop = key_of_loop(receiver) if isinstance(receiver, Instance) else call.place
+    task = loop_tasks.LoopTask(_name_of(call), loop, run_at=call.place)
+    key = (call.place, world.chain, id(world.activity or world.current))
+    with loop_tasks.as_root(world, key, task):
+        result = _run_coroutine(machine, receiver, call)
+    loop_tasks.end(world, task)
+    return result
+
+
+def _name_of(call: Call) -> str:
+    """The function of the coroutine that a call gets."""
+    given = call.args[0] if call.args else NONE
+    return given.function.name if isinstance(given, Coroutine) else 'a coroutine'
+
+
+def _follow_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> None:
+    """Follow what a task does, beside the task that has made it."""
+    world, inner = machine.world, Call(call.place, call.args[:1])
+    task = loop_tasks.child_of(world, _name_of(call))
+    if task is not None or not isinstance(receiver, Instance):
+        with loop_tasks.followed_as(world, task):
+            _run_coroutine(machine, receiver, inner)
+        return
+    root = loop_tasks.LoopTask(_name_of(call), key_of_loop(receiver), many=bool(world.open_loops))
+    with loop_tasks.as_root(world, (call.place, world.chain, id(world.current)), root):
+        _run_coroutine(machine, receiver, inner)
 
 
 def _note_run(machine: ConcurrentMachine, loop: Value, place: Place) -> None:
@@ -127,16 +159,18 @@ def make_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     if effects is not None and _is_task(world.activity) and isinstance(coroutine, Coroutine):
         given = coroutine.call
         inner = Call(call.place, given.args, given.keywords, given.more)
-        begin(machine, ActivityKind.THREAD, coroutine.function, inner, on_loop=True)
-        return machine.mystery('a task of asyncio', call.place, 'asyncio task')
+        own = world.activity.loop if isinstance(world.activity, ActivityState) else None
+        begin(machine, ActivityKind.THREAD, coroutine.function, inner, on_loop=own or call.place)
+        return machine.mystery(loop_tasks.TASK, call.place, 'asyncio task')
     if effects is None or (world.activity is not None and world.when is When.START):
-        return _run_coroutine(machine, receiver, call)
+        _follow_task(machine, receiver, call)
+        return machine.mystery(loop_tasks.TASK, call.place, 'asyncio task')
     world.effects, world.held = None, ()
     try:
-        _run_coroutine(machine, receiver, Call(call.place, call.args[:1]))
+        _follow_task(machine, receiver, call)
     finally:
         world.effects, world.held, world.holds = effects, held, holds
-    return machine.mystery('a task of asyncio', call.place, 'asyncio task')
+    return machine.mystery(loop_tasks.TASK, call.place, 'asyncio task')
 
 
 def _create_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
@@ -151,7 +185,7 @@ def _gather(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """All run at the same time, and all are awaited."""
     tasks = [_as_task(machine, each, call.place) for each in call.args]
     if call.more or not tasks or any(task is None for task in tasks):
-        return _run_coroutine(machine, receiver, call)
+        return _run_all(machine, receiver, call)
 
     def wait(machine: ConcurrentMachine, _: Value, inner: Call) -> Value:
         for task in tasks:
@@ -159,6 +193,34 @@ def _gather(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
         return machine.mystery('results of asyncio.gather', inner.place, 'await gather(…)')
 
     return coroutine_of('asyncio.gather', wait, call)
+
+
+def _run_all(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """Follow all, each a task that runs beside the others, until all are over."""
+    world, alone = machine.world, _written_out(call)
+    calls = [Call(call.place, [each]) for each in call.args]
+    made = [
+        loop_tasks.child_of(world, _name_of(each), many=at >= alone)
+        if isinstance(each.args[0], Coroutine)
+        else None
+        for at, each in enumerate(calls)
+    ]
+    results = []
+    for task, each in zip(made, calls, strict=True):
+        with loop_tasks.followed_as(world, task):
+            results.append(_run_coroutine(machine, receiver, each))
+    for task in made:
+        loop_tasks.end(world, task)
+    return results[0] if results else NONE
+
+
+def _written_out(call: Call) -> int:
+    """How many arguments stand in front of what is spread out and may be any number."""
+    if call.more is None:
+        return len(call.args)
+    given = call.text.args if isinstance(call.text, ast.Call) else []
+    stars = (at for at, each in enumerate(given) if isinstance(each, ast.Starred))
+    return next(stars, 0)
 
 
 def _as_task(machine: ConcurrentMachine, value: Value, place: Place) -> Value | None:
@@ -207,7 +269,8 @@ def _call_soon_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Cal
     turns = receiver.slots.get(LOOP) if isinstance(receiver, Instance) else None
     inner = Call(call.place, call.args[1:])
     with _by_loop(machine):
-        begin(machine, ActivityKind.THREAD, target, inner, turns=turns, on_loop=True)
+        key = key_of_loop(receiver)
+        begin(machine, ActivityKind.THREAD, target, inner, turns=turns, on_loop=key)
     return NONE
 
 
@@ -229,7 +292,7 @@ def _by_this_thread(machine: ConcurrentMachine, call: Call) -> Value:
 
 def _is_running(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """Return an open answer: code that asks has another way for a loop that runs."""
-    machine.world.asked.add(_ASKED)
+    machine.world.asked.add(ASKED)
     return machine.mystery('whether a loop runs', call.place, 'is_running()')
 
 
@@ -285,8 +348,14 @@ def _awaitable(name: str, word: Word | None = None) -> Handler:
 
 def coroutine_of(name: str, awaited: Handler, call: Call) -> Instance:
     """What a coroutine function of a library gives: ``awaited`` happens when it is awaited."""
+
+    def suspended(machine: ConcurrentMachine, receiver: Value, inner: Call) -> Value:
+        if name not in _AT_ONCE:
+            machine.note_suspended(inner.place)
+        return awaited(machine, receiver, inner)
+
     coroutine = _made('asyncio.coroutine', 'coroutine', call)
-    coroutine.slots[AWAITED] = Native(name, awaited)
+    coroutine.slots[AWAITED] = Native(name, suspended)
     return coroutine
 
 
@@ -318,6 +387,8 @@ def _wait_for(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 
 
 _PUT = 'asyncio.Queue.put'
+_AT_ONCE = frozenset({'acquire', _PUT})
+"""They need not wait for others."""
 _QUEUE = LibraryClass(
     state=lambda machine, instance: PlainState('queue', place=instance.place),
     init=init_queue,
@@ -362,6 +433,16 @@ def _new_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return loop
 
 
+def _set_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """``set_event_loop``: its thread has a loop, which need not run."""
+    machine.world.sets_loops = True
+    return NONE
+
+
+def _some_task(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    return machine.mystery(loop_tasks.TASK, call.place, 'asyncio task')
+
+
 def _own_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     loop = Instance(Name(_LOOP), call.place)
     begin = machine.world.own_loop
@@ -389,15 +470,17 @@ TABLE = Library(
     },
     functions={
         'asyncio.run': _run_loop,
-        'asyncio.gather': _gather,
+        'asyncio.gather': needing('asyncio.gather', _gather, is_any=True),
         'asyncio.wait_for': _wait_for,
         'asyncio.wait': _gather,
-        'asyncio.create_task': _create_task,
-        'asyncio.ensure_future': _create_task,
+        'asyncio.create_task': needing('asyncio.create_task', _create_task),
+        'asyncio.ensure_future': needing('asyncio.ensure_future', _create_task, is_any=True),
+        'asyncio.current_task': needing('asyncio.current_task', _some_task),
         'asyncio.sleep': _asyncio_sleep,
-        'asyncio.get_event_loop': _own_loop,
+        'asyncio.get_event_loop': needing('asyncio.get_event_loop', _own_loop, is_any=True),
+        'asyncio.set_event_loop': _set_loop,
         'asyncio.new_event_loop': _new_loop,
-        'asyncio.get_running_loop': _own_loop,
+        'asyncio.get_running_loop': needing('asyncio.get_running_loop', _own_loop),
     },
     aliases={
         'asyncio.queues.Queue': 'asyncio.Queue',

@@ -96,9 +96,16 @@ def run_threadsafe(machine: ConcurrentMachine, receiver: Value, call: Call) -> V
     turns = loop.slots.get(LOOP) if isinstance(loop, Instance) else None
     if isinstance(loop, Instance) and isinstance(future, Instance):
         future.slots[_OF_NEW_LOOP] = loop.slots.get(RUNS, NONE)
-    begin(machine, ActivityKind.THREAD, target, inner, future, turns=turns, on_loop=True)
+    on_loop = key_of_loop(loop or NONE)
+    begin(machine, ActivityKind.THREAD, target, inner, future, turns=turns, on_loop=on_loop)
     may_be_done(machine, future)
     return future
+
+
+def key_of_loop(loop: Value) -> object:
+    """Equal for what one loop runs."""
+    begun = loop.slots.get(LOOP) if isinstance(loop, Instance) else None
+    return begun or id(loop)
 
 
 def _hand_over(

@@ -331,6 +331,15 @@ def _is_set(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return answer(receiver, Word.SET, call)
 
 
+def _wait_event(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """With a time-out it tells in the end whether the event is set."""
+    timeout = call.argument(0, 'timeout')
+    machine.note_blocking('Event.wait', receiver, timeout, call.place)
+    if timeout is None or timeout == NONE:
+        return machine.mystery('result of Event.wait', call.place)
+    return answer(receiver, Word.SET, call)
+
+
 def _is_alive(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return answer(receiver, Word.END, call, if_true=False)
 
@@ -355,7 +364,7 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
     },
     'semaphore': {'acquire': _take, 'release': _give},
     'event': {
-        'wait': _blocking('Event.wait', 0, 'timeout'),
+        'wait': _wait_event,
         'set': _set,
         'clear': _clear,
         'is_set': _is_set,
@@ -373,7 +382,7 @@ def _note_end(machine: ConcurrentMachine, thread: Value) -> None:
             activity.ends_first = activity.ends_first or is_first
 
 
-def _join(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+def join(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """What the thread spun is spun no more where the program has waited for its end."""
     world = machine.world
     if not world.in_callback and not world.in_thread:
@@ -391,7 +400,7 @@ _THREAD = LibraryClass(
     state=_thread_state(ActivityKind.THREAD),
     init=_thread_init,
     is_beside=True,
-    methods={'start': _start, 'join': _join, 'is_alive': _is_alive, 'setDaemon': _set_daemon},
+    methods={'start': _start, 'join': join, 'is_alive': _is_alive, 'setDaemon': _set_daemon},
 )
 
 _PRIMITIVES = {

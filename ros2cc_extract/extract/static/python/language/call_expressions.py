@@ -45,7 +45,7 @@ def evaluate_call(machine: Machine, node: ast.Call, frame: Frame) -> Value:
     if isinstance(function, (Bound, Function)) and asked.has_waited():
         call.place = frame.end_of(node)  # in the order of the text it comes after its arguments
     machine.note_call(function, node, frame)
-    if isinstance(function, Mystery):
+    if isinstance(function, Mystery) or call.more is not None:
         call.text = node
     if isinstance(function, Native):
         unset_globals.pass_on(machine, node, call, frame)

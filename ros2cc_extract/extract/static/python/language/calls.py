@@ -295,7 +295,7 @@ class Calls(Machine):
                 value = result if not isinstance(result, Mystery) else value
             else:
                 memoization.doubt(self.world, function, 'is decorated by', decorator)
-                self._keep_handler(function, decorator, frame)
+                self._keep_handler(function, decorator, frame, wrapper)
         return value
 
     def _with_accessor(self, function: Function, decorator: ast.Attribute, frame: Frame) -> Value:
@@ -305,12 +305,12 @@ class Calls(Machine):
         old = made or frame.scope.slots.get(function.name)
         return old if isinstance(old, Value) else function
 
-    def _keep_handler(self, function: Function, decorator: ast.expr, frame: Frame) -> None:
+    def _keep_handler(self, function: Function, node: ast.expr, frame: Frame, by: Value) -> None:
         """Code that is not scanned has the function now, as a web server has its handlers."""
-        of_tests = source_text(decorator).startswith('pytest') or is_test(function.name)
+        of_tests = source_text(node).startswith('pytest') or is_test(function.name)
         if function.owner is None and not of_tests:
-            self.world.escaped.append((function, frame.place(decorator)))
-            self.note_handed([function], frame.place(decorator), source_text(decorator))
+            self.world.escaped.append((function, frame.place(node)))
+            self.note_handed([function], frame.place(node), source_text(node), by)
 
     def make_class(self, node: ast.ClassDef, frame: Frame) -> Class:
         """A class from its statement, its body run."""

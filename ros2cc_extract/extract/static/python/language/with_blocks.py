@@ -30,6 +30,8 @@ class Blocks(Machine):
 
     def enter_context(self, value: Value, place: Place, *, is_async: bool = False) -> Value:
         """What ``with value as x`` binds to ``x``, or ``async with``."""
+        if is_async and not isinstance(value, Instance):
+            self.note_suspended(place)
         if isinstance(value, Instance):
             if is_block(value):
                 self.note_entered(value, place)

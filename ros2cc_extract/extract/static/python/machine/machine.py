@@ -183,8 +183,10 @@ class Machine(Observer, LibraryHooks, ABC):
         """Something unknown is called, perhaps with a node among its arguments."""
 
     @abstractmethod
-    def note_handed(self, values: Iterable[Value], place: Place, name: str) -> None:
-        """Functions that code which is not scanned has now."""
+    def note_handed(
+        self, values: Iterable[Value], place: Place, name: str, by: Value | None = None
+    ) -> None:
+        """Functions that code which is not scanned has now, that of ``by`` if it is known."""
 
     @abstractmethod
     def library_member(

@@ -139,11 +139,17 @@ class Observer:
     def note_await(self, value: Value, place: Place) -> None:
         """``value`` is awaited."""
 
+    def note_suspended(self, place: Place) -> None:
+        """A coroutine lets others run, at an ``async with`` or the like."""
+
     def note_turn(self, place: Place) -> None:
         """A coroutine lets others run and goes on by itself."""
 
     def note_unknown_call(self, function: Mystery, call: Call) -> None:
         """Something that could not be followed is called."""
+
+    def note_library_call(self, name: str, place: Place) -> None:
+        """A function of a library that no table has is called."""
 
     def give_away(self, value: Value, reason: str, place: Place) -> None:
         """Code that is not followed has ``value`` now."""

@@ -94,8 +94,10 @@ class World:
         serial number.
     :param skipped_if: of a branch, what has surely happened where it is not taken.
     :param called: every function that was followed, by the identity of its statement.
-    :param handed: functions that code which is not scanned has, where and by what name.
-    :param escaped_to_unknown: functions, by their text, that were followed as unknown code's.
+    :param handed: functions that code which is not scanned has, where and by what name, and why
+        that code is not known.
+    :param escaped_to_unknown: functions, by their text, that were followed as unknown code's, and
+        ``called_later`` those that such functions were the first to call.
     :param subclasses: the direct ones of each class, in the order of their definition.
     :param made_of: how many instances there are of each class.
     :param followed_later: how many methods of each class were followed without a caller.
@@ -184,8 +186,9 @@ class World:
     decorated: list[Function] = field(default_factory=list)
     decorated_classes: list[Class] = field(default_factory=list)
     escaped: list[tuple[Value, Place]] = field(default_factory=list)
-    handed: list[tuple[Value, Place, str]] = field(default_factory=list)
+    handed: list[tuple[Value, Place, str, str]] = field(default_factory=list)
     escaped_to_unknown: set[int] = field(default_factory=set)
+    called_later: set[int] = field(default_factory=set)
     instances: list[Instance] = field(default_factory=list)
     subclasses: dict[Class, list[Class]] = field(default_factory=dict)
     made_of: Counter[Class] = field(default_factory=Counter)

@@ -100,7 +100,8 @@ class LibraryCalls(Machine):
         self._keep_escaped(call)
         if is_standard(name) and not name.startswith(CALLING_BACK):
             return
-        self.note_handed((*call.args, *call.keywords.values()), call.place, name)
+        self.note_library_call(name, call.place)
+        self.note_handed((*call.args, *call.keywords.values()), call.place, name, function)
         if not name:
             return
         why = Unknown(f'it is handed to {name}, which is not scanned', call.place)
@@ -112,12 +113,15 @@ class LibraryCalls(Machine):
                 elif isinstance(option, Collection) and not self.model.makes_data(name):
                     self.world.handed_over.setdefault(option, why)
 
-    def note_handed(self, values: Iterable[Value], place: Place, name: str) -> None:
+    def note_handed(
+        self, values: Iterable[Value], place: Place, name: str, by: Value | None = None
+    ) -> None:
         """Functions that code which is not scanned has now, and may call on any thread."""
+        whose = by.unknown.reason if isinstance(by, Mystery) else ''
         for value in values:
             for option in options_of(value):
                 if isinstance(option, (Function, Bound, Partial)):
-                    self.world.handed.append((option, place, name or 'code'))
+                    self.world.handed.append((option, place, name or 'code', whose))
 
     def _keep_escaped(self, call: Call) -> None:
         """Functions that are handed to unknown code may be called by it, later."""

@@ -18,7 +18,6 @@ from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusiv
 from ros2cc_extract.extract.static.python.values.values import Instance, options_of
 
 SLUG = 'node-taken-out'
-_TAKES = 'rclpy.'
 
 
 def note_taken_by_threads(world: RosWorld) -> None:
@@ -31,7 +30,7 @@ def note_taken_by_threads(world: RosWorld) -> None:
 def _thefts(world: RosWorld) -> Iterator[Diagnostic]:
     spins = list(world.spins.values())
     for number, spin in enumerate(spins):
-        if not spin.in_thread or spin.for_ever or not spin.how.startswith(_TAKES):
+        if not spin.in_thread or spin.for_ever or not spin.takes:
             continue
         for other in spins:
             if _is_beside(spin, number, other) and any(_robbed(spin, other)):

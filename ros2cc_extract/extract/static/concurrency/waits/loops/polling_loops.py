@@ -372,13 +372,15 @@ def _put_last(effects: EffectLog, before: Mark, place: Place) -> None:
 def _note_own_end(
     world: ConcurrentWorld, loop: ast.While, effects: EffectLog, before: Mark, frame: Frame
 ) -> None:
-    """A thread that works until it has set itself what it tests waits for nobody."""
+    """What works until it has set itself what it tests waits for nobody."""
     place, lines = frame.place(loop), range(loop.lineno, (loop.end_lineno or loop.lineno) + 1)
     for number, block in enumerate(effects.blocking[before.waits :], before.waits):
-        if block.call != WORKING_LOOP or not isinstance(block.resource, ResourceRef):
+        is_loop = block.call in (WORKING_LOOP, 'busy wait')
+        if not is_loop or not isinstance(block.resource, ResourceRef):
             continue
         wakings = world.wakings.get(block.resource.number, ())
-        own_places = [waking.place for waking in wakings if waking.by is world.activity]
+        doer = world.activity or world.current
+        own_places = [waking.place for waking in wakings if waking.by is doer]
         if any(each.file == place.file and each.line in lines for each in own_places):
             own = Unknown('the loop sets itself what ends it', place)
             effects.blocking[number] = replace(block, seconds=block.seconds or own)

@@ -250,8 +250,10 @@ class Spin:
     :param over: how many of the spins before it were over then.
     :param is_tried: what rises out of it may be caught.
     :param by: the thread of the program's own that does it.
+    :param takes: it adds its node to the executor, out of any other, and removes it at its end.
     :param beside: other threads that come to it and that it is not over for.
     :param chains: the calls that lead to it.
+    :param may_have_loop: a loop of asyncio may run what calls it.
     """
 
     executor: Instance
@@ -268,8 +270,10 @@ class Spin:
     over: int = 0
     is_tried: bool = False
     by: ActivityState | None = None
+    takes: bool = False
     beside: list[ActivityState] = field(default_factory=list)
     chains: dict[tuple[Place, ...], None] = field(default_factory=dict)
+    may_have_loop: bool = False
 
     @property
     def key(self) -> object:

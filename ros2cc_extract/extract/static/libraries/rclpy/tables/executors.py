@@ -8,6 +8,7 @@ number of threads is the number of CPUs the process may use).
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Collection, Sequence
 
 from ros2cc_extract.extract.static.concurrency import activities
@@ -217,6 +218,8 @@ def record_spin(
     place: Place,
     ever: bool,
     timeout: Value | None = None,
+    *,
+    takes: bool = False,
 ) -> None:
     world = machine.world
     if world.second_pass:
@@ -225,9 +228,10 @@ def record_spin(
     nodes = nodes_of(executor)
     executor.state.spun = True
     spin = Spin(executor, nodes, how, place, world.path, ever, world.in_thread)
-    spin.repeated = isinstance(world.count, Unknown)
+    spin.repeated, spin.takes = isinstance(world.count, Unknown), takes
     spin.timeout, spin.thread = None if timeout == NONE else timeout, world.thread
     spin.is_tried, spin.by = bool(world.caught), world.activity
+    spin.may_have_loop = _may_have_loop(machine)
     kept_threads.note_goes_on(world)
     spin.from_callback = world.current is not None
     spin.over = 0 if spin.from_callback else world.spins_over  # followed behind all of main
@@ -246,6 +250,15 @@ def record_spin(
     world.main_spins += world.when is When.START and (ever or executor.state.threads == 1)
     if ever:
         world.after_spin = True
+
+
+def _may_have_loop(machine: RosMachine) -> bool:
+    """Whether what is followed may run inside a loop of asyncio, as a coroutine does."""
+    world = machine.world
+    calls = machine.stack[world.thread_depth :]
+    is_coroutine = any(isinstance(call.node, ast.AsyncFunctionDef) for call in calls)
+    is_of_others = world.by_loop or world.when is When.LATER
+    return world.loop is not None or is_of_others or is_coroutine
 
 
 def _note_beside(known: Spin, again: Spin, spins: Collection[Spin]) -> None:

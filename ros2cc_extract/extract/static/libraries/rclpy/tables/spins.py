@@ -128,7 +128,7 @@ def _spin_node(
     add_node(machine, executor, node)
     # Nested spins recognise the global executor by this name.
     called = f'rclpy.{how}' if executor.state.is_global else how
-    record_spin(machine, executor, called, place, ever, future[1])
+    record_spin(machine, executor, called, place, ever, future[1], takes=True)
     machine.note_outside_wait(f'rclpy.{how}', *future, place, nodes_of(executor))
     if not stays and not (ever and machine.world.in_thread):
         remove_node(machine, executor, node)
