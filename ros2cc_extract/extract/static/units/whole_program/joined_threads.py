@@ -43,7 +43,10 @@ from ros2cc_extract.extract.static.python.values.values import (
     Instance,
     options_of,
 )
-from ros2cc_extract.extract.static.units.whole_program.threads_until_shutdown import ends_by_itself
+from ros2cc_extract.extract.static.units.whole_program.threads_until_shutdown import (
+    ends_by_time,
+    spins_until_one_ends,
+)
 from ros2cc_extract.spec.effects import POLLING_LOOP, WORKING_LOOP, Act, Blocking
 from ros2cc_extract.spec.model import EntityKind
 
@@ -74,7 +77,7 @@ def never_joined(
 
     :param spun: the nodes that other threads spin meanwhile.
     """
-    for state in world.activities:
+    for state in () if spins_until_one_ends(world) else world.activities:
         if not any(wait.client is runner for runner in state.runners):
             continue
         if state.serves:
@@ -227,7 +230,7 @@ def _why_asleep(block: Blocking, wait: OutsideWait, world: RosWorld) -> str | No
 def _waits_itself(spin: Spin, wait: OutsideWait, world: RosWorld) -> bool:
     """Whether the spinning thread is the one that waits, and its spin ends before rclpy does."""
     is_main = not spin.in_thread and not spin.from_callback and not wait.in_thread
-    return is_main and ends_by_itself(spin, world)
+    return is_main and ends_by_time(spin, world)
 
 
 def _serves(spin: Spin, node: Instance) -> bool:

@@ -18,6 +18,7 @@ from ros2cc_extract.extract.static.concurrency.machine.state import (
     Over,
 )
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN
+from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import CLOCKS
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import SHUTDOWN
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld, Spin
 from ros2cc_extract.extract.static.program.text_queries import walk
@@ -90,10 +91,33 @@ def _ends(loop: ast.While) -> bool:
     return bool(own) or any(id(part) not in caught for part in left)
 
 
+def ends_by_time(spin: Spin, world: RosWorld) -> bool:
+    """Whether it ends so by a number of rounds, a time-out or a time, and by no thread's work."""
+    places = {spin.place, *(place for chain in spin.chains for place in chain)}
+    loops = (loop for place in places for loop in loops_around(place, world))
+    return ends_by_itself(spin, world) and all(map(_asks_a_clock, loops))
+
+
+def spins_until_one_ends(world: RosWorld) -> bool:
+    """Whether the main program spins as long as some thread is alive, which it joins then."""
+    spins = (spin for spin in world.spins.values() if not spin.in_thread)
+    loops = (loop for spin in spins for loop in loops_around(spin.place, world))
+    return any(_called(part) == 'is_alive' for loop in loops for part in walk(loop.test))
+
+
+def _asks_a_clock(loop: ast.While) -> bool:
+    return any(_called(part) in CLOCKS for part in walk(loop.test))
+
+
 def _asks(part: ast.AST) -> bool:
-    """Whether it is ``rclpy.ok()``."""
+    """Whether it is ``rclpy.ok()``, or asks a thread whether it is over."""
+    return _called(part) in ('ok', 'is_alive')
+
+
+def _called(part: ast.AST) -> str:
     function = part.func if isinstance(part, ast.Call) else None
-    return getattr(function, 'attr', getattr(function, 'id', '')) == 'ok'
+    name: str = getattr(function, 'attr', getattr(function, 'id', ''))
+    return name
 
 
 def _is_true(test: ast.expr) -> bool:

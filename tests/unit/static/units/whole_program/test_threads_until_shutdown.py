@@ -102,6 +102,11 @@ def test_a_flag_or_a_callback_may_end_it() -> None:
     assert told(UNTIL, JOIN_FIRST, tick='rclpy.shutdown()') == []
 
 
+def test_who_spins_until_the_thread_is_over_joins_one_that_is() -> None:
+    alive = '    while node.writer.is_alive():\n        rclpy.spin_once(node)'
+    assert told(alive, JOIN_FIRST) == told(alive, NO_SHUTDOWN, cls='Log') == []
+
+
 def test_nothing_waits_for_a_daemon() -> None:
     assert told(UNTIL, NO_SHUTDOWN, cls='Log', daemon=', daemon=True') == []
 
