@@ -184,7 +184,7 @@ class Effects(Waits):
         chosen = is_content and is_computed
         is_tested = reading.governs(name, self.world.path)
         is_tested = is_tested or (is_content and reading.leads_to(name, self.world.path))
-        rests = is_tested or flows or chosen
+        rests = (is_tested or flows or chosen) and not self.world.by_local
         is_used = rests and is_read and at in reading.used
         # What is imported is the same each time, whatever was found before.
         is_import = isinstance(reading.stored, (Library, Module))
@@ -327,10 +327,13 @@ class Effects(Waits):
         held = self.evaluate(target, frame)
         self.world.effects = noted
         is_content = self.world.iterating is not None or kind is AccessKind.UPDATE_IN_PLACE
-        homes = collection_aliases.homes_of(self.world, held, is_lent=is_content)
-        for home in homes:
+        homes = collection_aliases.homes_of(self.world, held)
+        lenders = collection_aliases.lenders_of(self.world, held) if is_content else []
+        for home in (*homes, *lenders):
+            self.world.by_local = isinstance(target, ast.Name) and home in lenders
             self._note_access(self._seen_at(home), kind, frame.place(target), attribute)
-        return bool(homes)
+        self.world.by_local = False
+        return bool(homes or lenders)
 
     def _is_global(self, name: str, frame: Frame) -> bool:
         return closure_cells.owner_of(name, frame) is None and name in frame.module.slots

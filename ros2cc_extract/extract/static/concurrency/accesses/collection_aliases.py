@@ -46,11 +46,10 @@ def home_of(world: ConcurrentWorld, owner: Value, attribute: str) -> Home | None
     return next(iter(lenders_of(world, held)), None) or world.homes.get(held)
 
 
-def homes_of(world: ConcurrentWorld, value: Value, *, is_lent: bool) -> list[Home]:
-    """The same of the collections that a local variable may hold, and perhaps of lent ones."""
+def homes_of(world: ConcurrentWorld, value: Value) -> list[Home]:
+    """The same of the collections that a local variable may hold."""
     known = (world.homes.get(v) for v in options_of(value) if isinstance(v, Collection))
-    found = [home for home in known if home is not None]
-    return found + lenders_of(world, value) if is_lent else found
+    return [home for home in known if home is not None]
 
 
 def lenders_of(world: ConcurrentWorld, value: Value) -> list[Home]:

@@ -118,6 +118,7 @@ class World:
     :param round: which rounds of the loops around it are followed, where that distinguishes them;
         a negative number where the loop may be left before.
     :param iterating: class of the collection that a loop begins to go over.
+    :param by_local: what is noted is done by a local name, which no other code clears.
     :param parts: what was made while an object was set up, by the identity of the object.
     :param moves: what the call does to a collection that follows, see ``Access``.
     :param given_from: the data that the call computes its change from, or ``ITSELF``.
@@ -197,6 +198,7 @@ class World:
     times: int = 1
     round: tuple[int, ...] = ()
     iterating: str | None = None
+    by_local: bool = False
     refilling: bool = False
     moves: str | None = None
     only_data: bool = False

@@ -66,4 +66,5 @@ def is_bare(world: World, is_used: bool) -> bool:
     """Whether each run comes to this use without a test, and an error here is not caught."""
     is_open = world.path != world.callback_path or bool(world.reading.passed)
     is_open = is_open or any(asked.names for asked in world.reading.loops)
+    is_open = is_open or world.by_local
     return is_used and not is_open and all(_CATCHING.isdisjoint(names) for names in world.caught)
