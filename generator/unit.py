@@ -452,9 +452,9 @@ def _number_activity(
     return UnitActivity(
         name=activity.name,
         waits=tuple(map(number, own)),
-        loops=activity.loops,
+        loops=bool(activity.loops),
         start=_start_of(activity, spec, resources_of(steps)),
-        rests=activity.loops and _begins_with_wait(own, steps),
+        rests=bool(activity.loops) and _begins_with_wait(own, steps),
         is_asked=_is_asked(own),
     )
 

@@ -60,7 +60,8 @@ def bare_uses_cleared(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
     A thread that works until it is told to stop may have ended by then.
     """
     for user, clearer in ((one, other), (other, one)):
-        if isinstance(clearer, Activity) or (isinstance(user, Activity) and not user.loops):
+        is_over = isinstance(user, Activity) and user.loops is not True
+        if isinstance(clearer, Activity) or is_over:
             continue
         cleared = writes_of(clearer)
         for use in (*user.reads, *(write for write in user.writes if write.in_place)):

@@ -309,10 +309,12 @@ ACTIVITY = record(
             (
                 ('conditional', 'conditional', FLAG),
                 ('daemon', 'daemon', FLAG),
-                ('loops', 'loops', FLAG),
-                ('on_loop', 'on_loop', FLAG),
-                ('ends_first', 'ends_first', FLAG),
             ),
+        ),
+        Open(('loops',), 'loops', FLAG, ('loops', 'unknown'), 'loops_', False),
+        *plain_rows(
+            Activity,
+            (('on_loop', 'on_loop', FLAG), ('ends_first', 'ends_first', FLAG)),
         ),
         Resolution(),
         *plain_rows(

@@ -81,7 +81,7 @@ def _gives_again(giver: Actor, results: Mapping[Key, QueryResult]) -> bool:
     result = results.get((Family.PROGRESS, (giver.name,), ()))
     if result is not None and result.verdict is not Verdict.SATISFIED:
         return False
-    return giver.loops if isinstance(giver, Activity) else _comes_by_itself(giver)
+    return giver.loops is True if isinstance(giver, Activity) else _comes_by_itself(giver)
 
 
 def _comes_by_itself(callback: Callback) -> bool:

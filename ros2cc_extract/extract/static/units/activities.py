@@ -144,7 +144,7 @@ def activity(
         conditional=_is_conditional(state),
         daemon=state.daemon,
         on_loop=state.on_loop,
-        loops=state.loops,
+        loops=state.loops or waits.rounds.get(id(state), False),
         ends_first=state.ends_first,
         unresolved=facts.unresolved,
         source=state.place,

@@ -32,7 +32,12 @@ from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
 from ros2cc_extract.extract.static.units.wakers import barriers, initial_permits
 from ros2cc_extract.extract.static.units.wakers.data_writers import DataWriters, Doer, Kept
-from ros2cc_extract.extract.static.units.wakers.endless_threads import never_comes, why_no_end
+from ros2cc_extract.extract.static.units.wakers.endless_threads import (
+    never_comes,
+    unknown_rounds,
+    why_no_end,
+    why_uneven,
+)
 from ros2cc_extract.extract.static.units.wakers.late_offers import offered_late
 from ros2cc_extract.extract.static.units.wakers.lost_events import (
     answer_from_outside,
@@ -42,6 +47,7 @@ from ros2cc_extract.extract.static.units.wakers.lost_events import (
 from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import keeps_to_itself
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_kept_out
 from ros2cc_extract.extract.static.units.wakers.operations import (
+    as_unsure,
     comes_last,
     ended_last,
     wakings_of,
@@ -67,7 +73,7 @@ from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import (
     why_lost,
     why_unspun,
 )
-from ros2cc_extract.extract.static.units.wakers.unique_waker import the_setter
+from ros2cc_extract.extract.static.units.wakers.unique_waker import the_setter, waited_name
 from ros2cc_extract.extract.static.units.wakers.unsendable_messages import (
     comes_unasked,
     is_first,
@@ -96,6 +102,8 @@ class UnitWaits(DataWriters):
     Names what the callbacks and activities of a unit wait for.
 
     :param names: of entities, activities, nodes and the executor, by their identity.
+
+    ``rounds`` says why it is not known how often a thread goes round, by identity.
     """
 
     def __init__(self, world: RosWorld, names: dict[int, str], doers: Iterable[Doer]) -> None:
@@ -107,6 +115,7 @@ class UnitWaits(DataWriters):
             setter = the_setter(wakings)
             if setter is not None and id(setter) in names:
                 self._settled[number] = names[id(setter)]
+        self.rounds = unknown_rounds(world)
         self._kept = {id(doer): self._keep(doer) for doer in self._doers}
 
     def of(self, doer: Doer) -> tuple[Blocking, ...]:
@@ -178,7 +187,7 @@ class UnitWaits(DataWriters):
             return replace(raw, on=str(raw.on), resource=str(raw.on))
         if isinstance(raw.on, MessageRef):
             return replace(raw, on=self._names.get(raw.on.number), resource=str(raw.on))
-        on = _waited_name(raw.on, self._settled)
+        on = waited_name(raw.on, self._settled)
         if isinstance(resource, ResourceRef):
             on = self._the_waker(raw, resource) or (str(raw.on) if on is not None else None)
         if isinstance(resource, ResourceRef):
@@ -275,7 +284,7 @@ class UnitWaits(DataWriters):
         writers = tuple(dict.fromkeys((*self._writers(on), *self._by_main(raw, on, doer))))
         signals = self._signals(on, doer)
         if signals is None:
-            writers = _unsure(writers)
+            writers = as_unsure(writers)
         elif signals <= 0:
             writers = (Waker(by=TIME, source=raw.source),)
         by = [writer for writer, _ in self._writes(on)]
@@ -285,7 +294,7 @@ class UnitWaits(DataWriters):
         unsure = why_gone(self._world, by, self._of_main_after(raw, doer), self._name)
         unsure = unsure or why_unspun(self._world, by, doer, self._name)
         if unsure is not None:
-            writers = _unsure(writers)
+            writers = as_unsure(writers)
         asked = answer_from_outside(on.sent, by, self._world)
         is_poll = raw.call == POLLING_LOOP and raw.seconds is None
         asked = asked if is_poll and not is_activity(doer) else None
@@ -339,11 +348,12 @@ class UnitWaits(DataWriters):
         able = [waking for waking in mine if not never_comes(waking, doer)]
         found = [waker for waking in able for waker in self._wakers(waking, reference, doer, raw)]
         unsure = uneven or why_no_item(self._world, reference, mine)
+        unsure = unsure or why_uneven(able, self.rounds)
         unsure = unsure or self._why_unsure(raw, reference, mine, doer)
         unsure = unsure or why_in_another_run(raw, mine, doer)
         unsure = unsure or why_no_thread(mine, doer, self._name) or why_no_end(able, doer)
         if unsure is not None:
-            found = list(_unsure(found))
+            found = list(as_unsure(found))
         if not mine and reference.number in self._world.interruptible:
             found = [Waker(by=OUTSIDE, source=raw.source)]
         why = self._why_open(mine, reference) or unsure or why_none(raw, mine, doer, self._world)
@@ -461,6 +471,8 @@ class UnitWaits(DataWriters):
             return True
         if reference.guard is not None and waking.by is doer and is_unheard(waking, doer):
             return True  # it notifies before it waits itself
+        if not stays and id(waking.by) in self.rounds:
+            return True
         return is_kept_out(waking, reference, doer, self._doers, raw)
 
     def _initial(self, reference: ResourceRef, mine: list[Waking]) -> int | None:
@@ -484,16 +496,3 @@ def _is_in_turn(reference: ResourceRef, doer: Doer) -> bool:
 
 def _ends_by_itself(wakers: Iterable[Waker]) -> bool:
     return any(waker.by in (OUTSIDE, TIME) for waker in wakers)
-
-
-def _unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:
-    """The same wakers, marked as perhaps not coming."""
-    return tuple(replace(waker, conditional=True) for waker in wakers)
-
-
-def _waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:
-    if isinstance(on, SettableRef):
-        return names.get(on.number) or str(on)
-    if isinstance(on, EntityRef):
-        return names.get(on.number) or Unknown('an entity of another executor')
-    return on if isinstance(on, (str, Unknown)) else None

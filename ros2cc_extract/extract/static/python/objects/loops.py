@@ -58,7 +58,7 @@ class Items:
 
     def why_many(self, item: Value) -> Unknown | None:
         """Why ``item`` stands for any number of items, ``None`` when it is one."""
-        whys = [self.many.get(option, NONE) for option in options_of(item)]
+        whys = [self.many.get(each, NONE) for each in (item, *options_of(item))]
         found = [o.unknown for why in whys for o in options_of(why) if isinstance(o, Mystery)]
         return found[0] if found else None
 

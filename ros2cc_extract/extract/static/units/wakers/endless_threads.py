@@ -1,14 +1,20 @@
-"""Threads in an endless loop that a callback or another thread waits for."""
+"""Threads in a loop that never ends, or nobody knows when, which others wait for."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.recorded_effects import way_of
 from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import ENDLESS_LOOP, POLLING_LOOP, WORKING_LOOP
 from ros2cc_extract.spec.model import ActivityKind
+
+_NOTED = frozenset([ENDLESS_LOOP, POLLING_LOOP, WORKING_LOOP])
+"""Loops of which it is known what ends them."""
 
 
 def never_comes(waking: Waking, waiting: object) -> bool:
@@ -38,3 +44,38 @@ def _endless(waking: Waking, waiting: object) -> ActivityState | None:
     if is_main or waking.word is not Word.END or not isinstance(waking.by, ActivityState):
         return None
     return waking.by if waking.by.loops and waking.by is not waiting else None
+
+
+def unknown_rounds(world: RosWorld) -> Mapping[int, Unknown]:
+    """
+    Threads that do something for others in a loop of which nobody knows how many rounds it has.
+
+    They may go on as long as others wait, as a reader that ends with the input does, or be over.
+    """
+    found: dict[int, Unknown] = {}
+    for waking in (each for wakings in world.wakings.values() for each in wakings):
+        by = waking.by
+        if waking.in_loop and isinstance(by, ActivityState) and not _is_known(by):
+            reason = 'how many rounds the loop around it has is not known'
+            found.setdefault(id(by), Unknown(reason, waking.place))
+    return found
+
+
+def why_uneven(wakings: Iterable[Waking], rounds: Mapping[int, Unknown]) -> Unknown | None:
+    """
+    Why a thread of unknown ``rounds`` gives in each of them another number than in the first.
+
+    It waits in front of the loop, or behind it, for what it takes in each round as well.
+    """
+    for waking in wakings:
+        by = waking.by
+        if waking.in_loop and isinstance(by, ActivityState) and id(by) in rounds:
+            ways = {way_of(block) for block in by.effects.blocking if block.seconds is None}
+            if ways - by.effects.looped:
+                return rounds[id(by)]
+    return None
+
+
+def _is_known(thread: ActivityState) -> bool:
+    loops = (block for block in thread.effects.blocking if block.call in _NOTED)
+    return thread.loops or any(not isinstance(block.on, Unknown) for block in loops)

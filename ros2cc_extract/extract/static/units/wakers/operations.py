@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.machine.item_values import ends
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
@@ -15,7 +16,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.effects import Blocking, Waker
 
 _KEPT = 'it is kept in a collection, and the code that takes it out could not be followed'
 
@@ -139,3 +140,8 @@ def why_none(raw: Blocking, mine: Sequence[Waking], doer: Doer, world: RosWorld)
         return Unknown(reason, raw.source)
     kept = world.kept_inside.get(raw.resource.number)
     return Unknown(_KEPT, kept) if kept is not None else None
+
+
+def as_unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:
+    """The same wakers, marked as perhaps not coming."""
+    return tuple(replace(waker, conditional=True) for waker in wakers)

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
+    EntityRef,
+    SettableRef,
+    Waking,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.source_locations import Unknown
 
 _SETTING = frozenset({Word.SET})
 
@@ -31,3 +36,12 @@ def _alike(first: EntityState, other: object) -> bool:
     is_input = first.library is not None and first.library == other.library
     same_function = first.callback is not None and first.callback is other.callback
     return is_input and same_function and first.group is other.group
+
+
+def waited_name(on: object, names: dict[int, str]) -> str | Unknown | None:
+    """What is waited for, by the ``names`` of the unit, by identity."""
+    if isinstance(on, SettableRef):
+        return names.get(on.number) or str(on)
+    if isinstance(on, EntityRef):
+        return names.get(on.number) or Unknown('an entity of another executor')
+    return on if isinstance(on, (str, Unknown)) else None
