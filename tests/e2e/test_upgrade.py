@@ -95,7 +95,7 @@ def knotted(node: str, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A node that is not decided in time."""
     monkeypatch.setattr(upgrade, 'SECONDS', 0.3)
     path = Path(node).with_name('knot.py')
-    path.write_text(knot(7), encoding='utf-8')
+    path.write_text(knot(6), encoding='utf-8')
     return path
 
 

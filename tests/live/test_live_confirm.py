@@ -115,6 +115,7 @@ if __name__ == '__main__':
 """
 
 
+@pytest.mark.slow
 def test_interfaces_that_are_not_installed_are_stood_in_for(
     rclpy_python: str, tmp_path: Path
 ) -> None:
@@ -264,6 +265,7 @@ def test_an_action_that_is_always_waited_for_in_vain(rclpy_python: str, tmp_path
     assert found.reason.startswith('took the whole time-out of 1 s')
 
 
+@pytest.mark.slow
 def test_libraries_that_spin_or_wait_are_stood_in_for(rclpy_python: str) -> None:
     """What they do with the executor is known, so a stand-in does it too."""
     nodes = ('a11_navigator_in_callback', 'f2_buffer_client_on_one_thread')

@@ -139,6 +139,7 @@ def test_a_marked_test_fails_under_a_schedule_that_its_number_repeats(
     assert '1 failed' in again and f'schedule {number.group(1)}; repeat it' in again
 
 
+@pytest.mark.slow
 def test_the_order_is_repeated_where_the_number_gives_another(
     rclpy_python: str, domain: int, tmp_path: Path
 ) -> None:

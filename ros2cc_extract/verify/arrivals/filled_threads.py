@@ -39,8 +39,12 @@ def ask_again(
     if not reason:
         return again
     results = dict(again.results)
-    for key in map(key_of, of_ends):
-        if results[key].verdict is Verdict.SATISFIED:
+    threads = {activity.name for activity in closed.spec.activities}
+    for query in of_ends:
+        key = key_of(query)
+        # What keeps a thread waiting then keeps the callback waiting that takes from it.
+        is_of_thread = query.family is Family.PROGRESS and threads.issuperset(query.callbacks)
+        if results[key].verdict is Verdict.SATISFIED and not is_of_thread:
             results[key] = replace(
                 results[key], verdict=Verdict.UNDECIDED, reason=reason, run=None, in_doubt=True
             )

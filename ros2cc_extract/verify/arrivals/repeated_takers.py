@@ -16,7 +16,7 @@ from ros2cc_extract.generator.program_steps import NamedWait
 from ros2cc_extract.generator.resources import Actor, all_actors
 from ros2cc_extract.generator.waits import waits_of
 from ros2cc_extract.spec.display_names import display_names
-from ros2cc_extract.spec.effects import ENDLESS_LOOP, WORKING_LOOP
+from ros2cc_extract.spec.effects import ENDLESS_LOOP, WORKING_LOOP, Waker
 from ros2cc_extract.spec.model import Activity, Callback, CallbackType, EntityKind, Spec
 from ros2cc_extract.verify.results.results import QueryResult
 from ros2cc_extract.verify.search.search_results import Key
@@ -40,16 +40,44 @@ def not_looked_at(spec: Spec, results: Mapping[Key, QueryResult]) -> str:
 
     Of a wait that a branch may skip, what it asks before may keep it from the rest.
     """
+    names = display_names(spec)
     for callback, wait, needed in _takers(spec, results):
         if wait.block is None:
             continue
-        who = display_names(spec).get(callback.name, callback.name)
+        who = names.get(callback.name, callback.name)
         used = f'each {wait.block.call} of {who} uses up what is given'
         if wait.block.conditional:
             return f'{used} a limited number of times, and data decides which of its runs do so'
         if needed > MOST_RUNS:
             return f'{used} {needed - 1} times, and {MOST_RUNS} of its runs are looked at'
-    return ''
+    return next(_given_no_more(spec, names), '')
+
+
+def _given_no_more(spec: Spec, names: Mapping[str, str]) -> Iterator[str]:
+    """Say what takes the things of a thread whose loop a callback may have ended by then."""
+    threads = {thread.name: thread for thread in spec.activities}
+    for callback in spec.callbacks:
+        for wait in waits_of(callback, spec):
+            block = wait.block
+            if block is None or wait.is_signal or block.seconds is not None or block.escapes:
+                continue
+            ends = [_end_of_loop(threads.get(waker.by), waker, spec) for waker in block.wakers]
+            if ends and ends[0] is not None and None not in ends:
+                what = f'{block.call} of {names.get(callback.name, callback.name)}'
+                giver = block.wakers[0].by
+                yield (
+                    f'{names.get(giver, giver)} gives nothing more to {what} once '
+                    f'{names.get(ends[0], ends[0])} has ended its loop'
+                )
+
+
+def _end_of_loop(thread: Activity | None, waker: Waker, spec: Spec) -> str | None:
+    """Return the callback that ends the loop of ``thread`` in which it does what ends the wait."""
+    callbacks = {callback.name for callback in spec.callbacks}
+    for number, block in enumerate(thread.blocking if thread is not None else ()):
+        if block.call == WORKING_LOOP and waker.after is not None and waker.after <= number:
+            return next((each.by for each in block.wakers if each.by in callbacks), None)
+    return None
 
 
 def _takers(

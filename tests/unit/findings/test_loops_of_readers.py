@@ -6,6 +6,7 @@ import json
 from io import StringIO
 from pathlib import Path
 from textwrap import indent
+from typing import Any
 
 import pytest
 
@@ -28,7 +29,9 @@ class Bridge(Node):
         self.event, self.lock = threading.Event(), threading.Lock()
         self.reader = threading.Thread(target=self.read, daemon=True)
         self.reader.start()
+        self.running, self.halted = True, threading.Event()
         self.create_service(Trigger, 'ask', self.on_ask)
+        self.create_service(Trigger, 'halt', self.on_halt)
 
     def line(self):
         line = self.asked.get()
@@ -45,12 +48,17 @@ class Bridge(Node):
 {ask}
         return response
 
+    def on_halt(self, request, response):
+        {halt}
+        return response
+
 
 def main():
     rclpy.init()
     node = Bridge()
     rclpy.spin(node)
     node.asked.put('end')
+    {end}
     rclpy.shutdown()
 
 
@@ -100,16 +108,60 @@ WAYS: dict[str, tuple[str, str, tuple[str, str]]] = {
 }
 
 
+STOPS = {
+    # A loop in which each round gives one thing, and what ends it.
+    'flag': (f'while self.running:\n    line = self.line()\n    {PUT}', '{}.running = False'),
+    'event': (
+        f'while not self.halted.is_set():\n    line = self.line()\n    {PUT}',
+        '{}.halted.set()',
+    ),
+}
+OWN = 'done = threading.Event()\nself.asked.put(done)\ndone.wait()'
+STOPS['request'] = (STOPS['flag'][0].replace(PUT, 'line.set()'), STOPS['flag'][1])
+
+
+def checked(
+    folder: Path, read: str, ask: str, halt: str = 'pass', end: str = 'pass'
+) -> tuple[list[dict[str, Any]], dict[str, str]]:
+    """What is found in the line of the wait, and the marks of the promises."""
+    file, out = folder / 'node.py', StringIO()
+    read, ask = (indent(each, ' ' * 8) for each in (read, ask))
+    text = NODE.format(read=read, ask=ask, halt=halt, end=end)
+    file.write_text(text)
+    main(['check', '--no-cache', '--output-format', 'json', str(file)], out, StringIO())
+    report = json.loads(out.getvalue())
+    (unit,) = report['promises']
+    line = text[: text.index('        return response')].count('\n')
+    assert not [f for f in report['findings'] if f['severity'] == 'error' and f['line'] != line]
+    found = [each for each in report['findings'] if each['line'] == line]
+    return found, {each['promise']: each['mark'] for each in unit['promises']}
+
+
 @pytest.mark.parametrize('way', WAYS)
 def test_how_often_it_gives_is_not_known(way: str, tmp_path: Path) -> None:
     read, ask, told = WAYS[way]
-    file = tmp_path / 'node.py'
-    text = NODE.format(read=indent(read, ' ' * 8), ask=indent(ask, ' ' * 8))
-    file.write_text(text)
-    out = StringIO()
-    main(['check', '--no-cache', '--output-format', 'json', str(file)], out, StringIO())
-    found = json.loads(out.getvalue())['findings']
-    line = text[: text.index('        return response')].count('\n')
-    here = {(each['code'], each['severity']) for each in found if each['line'] == line}
-    assert here == {told}
-    assert not [each for each in found if each['severity'] == 'error' and each['line'] != line]
+    found, marks = checked(tmp_path, read, ask)
+    assert {(each['code'], each['severity']) for each in found} == {told}
+    assert marks['every wait ends'] == ('broken' if told is HANGS else 'undecided')
+
+
+@pytest.mark.parametrize('way', STOPS)
+def test_who_asks_when_a_callback_has_ended_the_loop_may_wait_forever(
+    way: str, tmp_path: Path
+) -> None:
+    read, stop = STOPS[way]
+    ask = OWN if way == 'request' else ASK
+    (found,), marks = checked(tmp_path, read, ask, halt=stop.format('self'))
+    assert found['code'] == 'CC120'
+    assert found['message'].endswith(' once Bridge.on_halt has ended its loop')
+    assert marks['every wait ends'] == 'undecided'
+
+
+@pytest.mark.parametrize('way', STOPS)
+def test_who_asks_before_the_program_ends_the_loop_gets_an_answer(
+    way: str, tmp_path: Path
+) -> None:
+    read, stop = STOPS[way]
+    ask = OWN if way == 'request' else ASK
+    found, marks = checked(tmp_path, read, ask, end=stop.format('node'))
+    assert (found, marks['every wait ends']) == ([], 'kept')
