@@ -275,8 +275,7 @@ class Activity:
     :param kind: ``MAIN`` is the code of the program after it has started a thread that spins.
     :param starts: what starts it and where, as wakers; empty for what runs from the beginning.
     :param count: how many may run at a time; ``conditional``: a branch may skip its start.
-    :param daemon: the program ends without waiting for it; ``loops``: it never ends by itself,
-        or it is not known after how many rounds.
+    :param daemon: the program ends without waiting for it; ``loops``: it never ends by itself.
     :param on_loop: a loop of asyncio runs it, on one thread with all else that it runs.
     :param ends_first: the set-up waits for its end, before anything spins.
     :param spins: where it runs the callbacks itself, if nothing else ever does, and one by one.
