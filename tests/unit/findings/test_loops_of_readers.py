@@ -98,6 +98,11 @@ WAYS: dict[str, tuple[str, str, tuple[str, str]]] = {
         "self.event.clear()\nself.asked.put('a')\nself.event.wait()",
         OPEN,
     ),
+    'data': (
+        'while random.random() < 0.9:\n    self.answer = self.line()',
+        "self.answer = None\nself.asked.put('a')\nwhile self.answer is None: pass",
+        OPEN,
+    ),
     # However many rounds there are.
     'once': (f'line = self.line()\n{PUT}', ASK, HANGS),
     'lock': (

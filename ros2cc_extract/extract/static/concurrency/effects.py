@@ -239,8 +239,7 @@ class Effects(Waits):
         return () if waited is None else (*self.world.chain[1:], waited)
 
     def _note_written(self, effects: EffectLog, name: str, place: Place) -> None:
-        is_open = self.world.path != self.world.callback_path
-        effects.written.setdefault((name, place), (effects.behind, is_open))
+        self.world.note_done(name, place)
         for hold in lost_notifications.holds_of(self.world):
             effects.stored.setdefault(hold, set()).add(name)
 

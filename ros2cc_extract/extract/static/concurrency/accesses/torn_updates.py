@@ -101,8 +101,7 @@ def _note(
         in_place=bool(part),
         chain=world.chain[1:],
     )
-    is_open = world.path != world.callback_path
-    effects.written.setdefault((whole, place), (effects.behind, is_open))
+    world.note_done(whole, place)
     piece = Piece(access, part, world.path, again)
     if piece not in effects.pieces[-RECENT:]:
         effects.pieces.append(piece)

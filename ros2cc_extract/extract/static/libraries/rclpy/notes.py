@@ -270,8 +270,7 @@ class RosNotes(StandardBlocks, RosMachine):
             name = str(key.value)
         elif isinstance(key, Mystery):
             name = key.unknown
-        is_open = self.world.path != self.world.callback_path
-        effects.written.setdefault((name, place), (effects.behind, is_open))
+        self.world.note_done(name, place)
         cleared_events.note_sent(effects, str(name))
         lost_notifications.note_begun(self.world, place)
         note_once(effects.publishes, Act(name=name, source=place, chain=self.world.chain[1:]))

@@ -79,7 +79,7 @@ class EffectLog:
     :param woken: of what others may wait on, by its identity, how many waits came before its wait
         was ended first.
     :param pieces: what is changed piece by piece, or published as a whole.
-    :param looped: the waits in a loop with an unknown number of rounds.
+    :param looped: the waits in a loop with an unknown number of rounds, and what is written there.
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     :param begun: how many functions of the program have begun.
     :param stored_last: what was stored last in an object, by its name and the way there.

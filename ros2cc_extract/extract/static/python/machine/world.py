@@ -257,6 +257,15 @@ class World:
         """Whether the set-up is followed, and a thread may be at work beside it."""
         return False
 
+    def note_done(self, name: object, place: Place) -> None:
+        """Something that may end a wait is done to ``name``, perhaps on a branch or in a loop."""
+        if self.effects is None:
+            return
+        is_open = self.path != self.callback_path
+        self.effects.written.setdefault((name, place), (self.effects.behind, is_open))
+        if self.open_loops:
+            self.effects.looped.add((name, place))
+
     def begin_outermost_loop(self) -> None:
         """A loop begins that stands in no other one."""
 

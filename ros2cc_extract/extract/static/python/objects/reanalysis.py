@@ -26,6 +26,7 @@ def both(before: EffectLog, again: EffectLog) -> EffectLog:
         pieces=list(dict.fromkeys((*before.pieces, *again.pieces))),
         stored={**before.stored, **again.stored},
         written={**before.written, **again.written},
+        looped=before.looped | again.looped,
         steps={**before.steps, **again.steps},
     )
 

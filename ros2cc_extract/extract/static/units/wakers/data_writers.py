@@ -24,6 +24,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntitySt
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import Value
+from ros2cc_extract.extract.static.units.wakers.endless_threads import may_be_over
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_off_its_loop
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
 from ros2cc_extract.light_dataclasses import dataclass
@@ -185,6 +186,7 @@ class DataWriters:
         behind, is_open = (doer.effects or EffectLog()).written.get((name, source), (None, False))
         after = self._kept[id(doer)].places.get(behind, 0)
         is_open = is_open or is_off_its_loop(doer, self._doers)
+        is_open = is_open or may_be_over(doer, (name, source))
         return Waker(by=self._names[id(doer)], source=source, after=after, conditional=is_open)
 
 

@@ -76,6 +76,13 @@ def why_uneven(wakings: Iterable[Waking], rounds: Mapping[int, Unknown]) -> Unkn
     return None
 
 
+def may_be_over(doer: object, write: object) -> bool:
+    """Whether a thread does a ``write``, by name and place, an unknown number of times."""
+    if not isinstance(doer, ActivityState) or write not in doer.effects.looped:
+        return False
+    return not _is_known(doer)
+
+
 def _is_known(thread: ActivityState) -> bool:
     loops = (block for block in thread.effects.blocking if block.call in _NOTED)
     return thread.loops or any(not isinstance(block.on, Unknown) for block in loops)
