@@ -355,7 +355,8 @@ class UnitBuilder:
             for state in states
         ]
         set_up = named_waits(self._unit.set_up, self._world, waits, doers)
-        return with_waits, without_loops_for_good(activities, with_waits), set_up
+        threads, with_waits = without_loops_for_good(activities, with_waits)
+        return with_waits, threads, set_up
 
     def _sources(self, entities: Sequence[EntityState]) -> tuple[str, ...]:
         places = [entity.place.file for entity in entities]

@@ -33,6 +33,7 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Effect
 from ros2cc_extract.extract.static.units.wakers import barriers, initial_permits
 from ros2cc_extract.extract.static.units.wakers.data_writers import DataWriters, Doer, Kept
 from ros2cc_extract.extract.static.units.wakers.endless_threads import (
+    is_never_left,
     never_comes,
     unknown_rounds,
     why_no_end,
@@ -50,6 +51,8 @@ from ros2cc_extract.extract.static.units.wakers.operations import (
     as_unsure,
     comes_last,
     ended_last,
+    ends_by_itself,
+    is_in_turn,
     wakings_of,
     why_no_item,
     why_none,
@@ -95,6 +98,7 @@ _THERE = 'what the loop asks for is perhaps there at first'
 _OF_FORK = 'a child of os.fork may wait for a lock that another thread held then'
 # What is waited for of one object may be several things.
 _PARTS = {Word.GET: ' (room)', Word.DONE: ' (tasks done)'}
+_LAST = ' (the item that ends the loop)'
 
 
 class UnitWaits(DataWriters):
@@ -209,7 +213,8 @@ class UnitWaits(DataWriters):
         key = (reference.number, reference.ended_by, reference.until)
         known = self._resources.get(key)
         if known is None:
-            text = str(reference) + _PARTS.get(min(reference.ended_by, key=str), '')
+            part = _LAST if reference.until else _PARTS.get(min(reference.ended_by, key=str), '')
+            text = str(reference) + part
             number = self._taken[text] = self._taken.get(text, 0) + 1
             known = text if number == 1 else f'{text}#{number}'
             self._resources[key] = known
@@ -275,7 +280,7 @@ class UnitWaits(DataWriters):
             behind = self._kept[id(doer)].places.get(way_of(raw), 0)
             wakers = [replace(waker, after=max(waker.after or 0, behind)) for waker in wakers]
             named = replace(named, conditional=False)
-        if escapes is None and not _ends_by_itself(wakers) and not named.initial:
+        if escapes is None and not ends_by_itself(wakers) and not named.initial:
             named = replace(named, unsent=self._unsent(raw, doer))
         return replace(named, wakers=tuple(dict.fromkeys(wakers)), escapes=escapes)
 
@@ -298,7 +303,7 @@ class UnitWaits(DataWriters):
         asked = answer_from_outside(on.sent, by, self._world)
         is_poll = raw.call == POLLING_LOOP and raw.seconds is None
         asked = asked if is_poll and not is_activity(doer) else None
-        is_open = why is not None or unsure is not None or _ends_by_itself(writers)
+        is_open = why is not None or unsure is not None or ends_by_itself(writers)
         sent = on.sent_by_now
         unsent = None if is_open else unsent_before_end(raw, sent, by, doer, self._world)
         return replace(
@@ -313,7 +318,7 @@ class UnitWaits(DataWriters):
     def _unsent(self, raw: Blocking, doer: Doer) -> str | None:
         """The topics on which no known code publishes before the wait has ended."""
         reference = raw.resource
-        if not isinstance(reference, ResourceRef) or _is_in_turn(reference, doer):
+        if not isinstance(reference, ResourceRef) or is_in_turn(reference, doer):
             return None
         stays = reference.is_kept and reference.number not in self._world.cleared
         if stays and not is_first(raw, reference, doer):
@@ -347,7 +352,7 @@ class UnitWaits(DataWriters):
             mine = barriers.of_its_round(raw, doer, visits, mine)
         able = [waking for waking in mine if not never_comes(waking, doer)]
         found = [waker for waking in able for waker in self._wakers(waking, reference, doer, raw)]
-        unsure = uneven or why_no_item(self._world, reference, mine)
+        unsure = uneven or why_no_item(raw, reference, mine, self._world)
         unsure = unsure or why_uneven(able, self.rounds)
         unsure = unsure or self._why_unsure(raw, reference, mine, doer)
         unsure = unsure or why_in_another_run(raw, mine, doer)
@@ -377,7 +382,7 @@ class UnitWaits(DataWriters):
 
     def _answer_to(self, raw: Blocking, reference: ResourceRef, doer: Doer) -> str | None:
         """What the wait is an answer to; a thread that takes items in turn waits for no answer."""
-        if raw.seconds is not None or _is_in_turn(reference, doer):
+        if raw.seconds is not None or is_in_turn(reference, doer):
             return None
         wakings = (w for w in wakings_of(self._world, reference) if w.word in reference.ended_by)
         by = [waking.by for waking in wakings if not comes_last(waking, self._world)]
@@ -465,7 +470,8 @@ class UnitWaits(DataWriters):
         self, waking: Waking, reference: ResourceRef, doer: Doer, raw: Blocking, *, stays: bool
     ) -> bool:
         """Whether ``waking`` perhaps does not come, or not while ``doer`` waits."""
-        if waking.conditional and not (stays and waking.unless_done):
+        is_done = stays and waking.unless_done
+        if waking.conditional and not (is_done or self._is_never_left(waking)):
             return True
         if self._forgets(reference, doer) and is_unheard(waking, doer):
             return True
@@ -474,6 +480,9 @@ class UnitWaits(DataWriters):
         if not stays and id(waking.by) in self.rounds:
             return True
         return is_kept_out(waking, reference, doer, self._doers, raw)
+
+    def _is_never_left(self, waking: Waking) -> bool:
+        return is_never_left(waking, self._world, lambda on: any(True for _ in self._writes(on)))
 
     def _initial(self, reference: ResourceRef, mine: list[Waking]) -> int | None:
         """How many waits end without a waker, as the set-up leaves it."""
@@ -487,12 +496,3 @@ class UnitWaits(DataWriters):
         """How many of its own waits the doer of ``waking`` has behind it then."""
         kept = self._kept.get(id(waking.by))
         return kept.places.get(waking.behind, 0) if kept is not None else 0
-
-
-def _is_in_turn(reference: ResourceRef, doer: Doer) -> bool:
-    """Whether a thread takes what others give it, one by one."""
-    return is_activity(doer) and not reference.is_kept
-
-
-def _ends_by_itself(wakers: Iterable[Waker]) -> bool:
-    return any(waker.by in (OUTSIDE, TIME) for waker in wakers)

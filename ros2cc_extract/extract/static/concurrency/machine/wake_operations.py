@@ -119,6 +119,7 @@ class Waking:
         in which it stands itself.
     :param uncalled: the function without a known caller in whose text it stands.
     :param is_counted: it happens once, on every branch.
+    :param left: the branches before it that leave their loop or function, if no others lead there.
     :param in_loop: it stands in a loop with an unknown number of rounds.
     :param unless_done: branches skip it only where it has been done before.
     :param repeats: it stands in a loop.
@@ -140,6 +141,7 @@ class Waking:
     held: tuple[str, ...] = ()
     is_counted: bool = False
     unless_done: bool = False
+    left: frozenset[Place] = frozenset()
     in_loop: bool = False
     repeats: bool = False
     written: frozenset[str] = frozenset()

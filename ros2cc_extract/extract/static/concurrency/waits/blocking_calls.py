@@ -335,6 +335,7 @@ class Waits(ConcurrentMachine):
             uncalled=(self.stack[0].name if self.stack else '') if is_uncalled else None,
             held=held_over(world, thing),
             is_counted=not world.path and world.count == 1,
+            left=world.left_before(),
             in_loop=world.open_loops > 0,
             unless_done=doer is not None and _only_unless_done(world, thing, word),
             repeats=bool(world.reading.loops),

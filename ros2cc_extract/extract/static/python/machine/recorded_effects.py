@@ -38,6 +38,7 @@ class Stored:
     :param behind: the last wait that lay behind it.
     :param taken_from: arguments of the function that the value was taken from.
     :param named: what the source names in the value.
+    :param exits: of a loop, or its first test, the branches inside that may leave it.
     :param begun: how many functions of the program had begun by then.
     """
 
@@ -103,6 +104,7 @@ class EffectLog:
     looped: set[object] = field(default_factory=set)
     written: dict[object, tuple[object, bool]] = field(default_factory=dict)
     stored_last: dict[object, Stored] = field(default_factory=dict)
+    exits: dict[Place | None, frozenset[Place]] = field(default_factory=dict)
     begun: int = 0
     resting: set[Place | None] = field(default_factory=set)
     steps: dict[Place | None, Any] = field(default_factory=dict)

@@ -257,6 +257,11 @@ class World:
         """Whether the set-up is followed, and a thread may be at work beside it."""
         return False
 
+    def left_before(self) -> frozenset[Place]:
+        """The branches that end a loop or function, if nothing else leads here conditionally."""
+        own = self.path[len(self.callback_path) :]
+        return frozenset(at for at, _ in own) if all(arm == -1 for _, arm in own) else frozenset()
+
     def note_done(self, name: object, place: Place) -> None:
         """Something that may end a wait is done to ``name``, perhaps on a branch or in a loop."""
         if self.effects is None:

@@ -27,6 +27,7 @@ def both(before: EffectLog, again: EffectLog) -> EffectLog:
         stored={**before.stored, **again.stored},
         written={**before.written, **again.written},
         looped=before.looped | again.looped,
+        exits=before.exits | again.exits,
         steps={**before.steps, **again.steps},
     )
 

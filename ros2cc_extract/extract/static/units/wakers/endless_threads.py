@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
-from ros2cc_extract.extract.static.concurrency.machine.wake_operations import Waking
+from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
+    DataRef,
+    ResourceRef,
+    Waking,
+)
+from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
+    data_is_written_elsewhere,
+    uncalled_wakers,
+)
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import way_of
+from ros2cc_extract.extract.static.units.wakers.operations import comes_last, wakings_of
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import ENDLESS_LOOP, POLLING_LOOP, WORKING_LOOP
+from ros2cc_extract.spec.effects import ENDLESS_LOOP, POLLING_LOOP, WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import ActivityKind
 
 _NOTED = frozenset([ENDLESS_LOOP, POLLING_LOOP, WORKING_LOOP])
@@ -81,6 +90,36 @@ def may_be_over(doer: object, write: object) -> bool:
     if not isinstance(doer, ActivityState) or write not in doer.effects.looped:
         return False
     return not _is_known(doer)
+
+
+def is_never_left(waking: Waking, world: RosWorld, is_written: Callable[[DataRef], bool]) -> bool:
+    """
+    Whether branches skip it only where they end the loop of its thread, which goes on for good.
+
+    :param is_written: whether callbacks or threads write data.
+    """
+    by = waking.by
+    if not isinstance(by, ActivityState) or not waking.left:
+        return False
+    loops = [
+        block
+        for block in by.effects.blocking
+        if block.call == WORKING_LOOP and waking.left <= by.effects.exits.get(block.source, set())
+    ]
+    return bool(loops) and not any(_may_end(loop, world, is_written) for loop in loops)
+
+
+def _may_end(loop: Blocking, world: RosWorld, is_written: Callable[[DataRef], bool]) -> bool:
+    on, queue = loop.on, loop.resource
+    if isinstance(on, DataRef):
+        is_open = data_is_written_elsewhere(world, on.names) is not None
+        return loop.seconds is not None or is_open or is_written(on)
+    if not isinstance(queue, ResourceRef) or loop.seconds is not None:
+        return True
+    ends = [w for w in wakings_of(world, queue) if w.word in queue.ended_by]
+    others = uncalled_wakers(world, str(queue), queue.ended_by, queue.made)
+    is_open = others is not None or queue.number in world.given
+    return is_open or any(not comes_last(waking, world) for waking in ends)
 
 
 def _is_known(thread: ActivityState) -> bool:

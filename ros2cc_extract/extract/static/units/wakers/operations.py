@@ -16,7 +16,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.effects import Blocking, Waker
+from ros2cc_extract.spec.effects import OUTSIDE, TIME, WORKING_LOOP, Blocking, Waker
 
 _KEPT = 'it is kept in a collection, and the code that takes it out could not be followed'
 
@@ -42,12 +42,18 @@ def _is_other_item(waking: Waking, reference: ResourceRef) -> bool:
     return is_asked and ends(reference.until, waking.item) is False
 
 
-def why_no_item(world: RosWorld, reference: ResourceRef, mine: Sequence[Waking]) -> Unknown | None:
-    """Why it is not known whether a loop is ended by the item that it asks for."""
+def why_no_item(
+    raw: Blocking, reference: ResourceRef, mine: Sequence[Waking], world: RosWorld
+) -> Unknown | None:
+    """
+    Why it is not known whether a loop is ended by the item that it asks for.
+
+    A thread whose loop nothing ends that is put there goes on.
+    """
     if not reference.until:
         return None
     puts = [w for w in _all_of(world, reference) if w.word is Word.PUT]
-    if puts and not mine:
+    if puts and not mine and raw.call != WORKING_LOOP:
         return Unknown('nothing that is put into it ends the loop', reference.made)
     unsure = (w.place for w in mine if ends(reference.until, w.item) is None)
     place = next(unsure, None)
@@ -145,3 +151,13 @@ def why_none(raw: Blocking, mine: Sequence[Waking], doer: Doer, world: RosWorld)
 def as_unsure(wakers: Iterable[Waker]) -> tuple[Waker, ...]:
     """The same wakers, marked as perhaps not coming."""
     return tuple(replace(waker, conditional=True) for waker in wakers)
+
+
+def is_in_turn(reference: ResourceRef, doer: object) -> bool:
+    """Whether a thread takes what others give it, one by one."""
+    return isinstance(doer, ActivityState) and not reference.is_kept
+
+
+def ends_by_itself(wakers: Iterable[Waker]) -> bool:
+    """Whether time or the outside ends the wait."""
+    return any(waker.by in (OUTSIDE, TIME) for waker in wakers)

@@ -121,7 +121,7 @@ def test_names_of_the_parts_of_an_item() -> None:
 
 def test_who_joins_a_thread_waits_for_the_item_that_ends_it() -> None:
     work = UNTIL.format(test='item is None')
-    assert ends_of('work', work=work, finish='self.worker.join()') == NOT_ENDED
+    assert ends_of('work', work=work, finish='self.worker.join()') == []
     finish = 'self.items.put(None); self.worker.join()'
     assert ends_of('work', work=work, finish=finish) == ['on_finish']
 

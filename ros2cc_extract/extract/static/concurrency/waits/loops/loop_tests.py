@@ -68,11 +68,17 @@ def exit_tests(loop: ast.While) -> Iterator[ast.expr]:
     """Tests one of which must come out otherwise for the loop to end."""
     if not is_endless(loop):
         yield loop.test
+    for part in leaving_branches(loop):
+        yield part.test
+
+
+def leaving_branches(loop: ast.While) -> Iterator[ast.If]:
+    """The branches inside of which one arm leaves the loop."""
     for part in own_parts(loop.body):
         if isinstance(part, ast.If) and any(
             isinstance(each, LEAVES) for arm in (part.body, part.orelse) for each in arm
         ):
-            yield part.test
+            yield part
 
 
 def only_exit(loop: ast.While) -> ast.expr | None:

@@ -39,6 +39,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     asks_for_service,
     asks_object,
     exit_tests,
+    leaving_branches,
     only_sleeps,
     runs_out,
 )
@@ -309,6 +310,8 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
     _note_asked(machine, loop, effects, before, frame)
     _note_own_end(machine.world, loop, effects, before, frame)
     tests = exits_of(machine, loop, frame)
+    exits = frozenset(map(frame.place, leaving_branches(loop)))
+    effects.exits |= dict.fromkeys(map(frame.place, (loop, *tests[:1])), exits)
     if not tests and retry_loops.note(machine, loop, frame, before.waits):
         return
     asked = machine.world.reading.asked.get(frame.place(loop))
