@@ -21,6 +21,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
     Call,
+    Const,
     Function,
     Instance,
     Native,
@@ -82,9 +83,9 @@ def begin(
     :param turns: as of an ``ActivityState``, and ``pool`` too.
     """
     world = machine.world
-    text = (call.place, _code_of(target, call))
-    site = (text, world.chain, id(world.activity or world.current))
-    known = _own_text(world, text) or next((e for e in world.activities if e.site == site), None)
+    known, site = _known(world, call.place, _code_of(target, call, given=True))
+    if known is None and _are_many(world, call.place):
+        known, site = _known(world, call.place, _code_of(target, call, given=False))
     state = known or ActivityState(
         kind, call.place, target, call, daemon=bool(daemon), site=site, turns=turns
     )
@@ -190,17 +191,40 @@ def spins(world: ConcurrentWorld, *, for_ever: bool) -> None:
         world.activity = world.effects = None
 
 
-def _code_of(target: Value | None, call: Call) -> object:
-    """Equal for what runs one text on one object, for the same objects and functions."""
-    given = (option for v in (*call.args, *call.keywords.values()) for option in options_of(v))
-    arguments = tuple(_text_of(v) for v in given if isinstance(v, (Instance, *_CODE)))
+def _known(
+    world: ConcurrentWorld, place: Place, code: object
+) -> tuple[ActivityState | None, object]:
+    """The activity that runs ``code`` and is started there, if it is met again; its site."""
+    text = (place, code)
+    site = (text, world.chain, id(world.activity or world.current))
+    known = _own_text(world, text) or next((e for e in world.activities if e.site == site), None)
+    return known, site
+
+
+def _are_many(world: ConcurrentWorld, place: Place) -> bool:
+    """Whether so many threads are started there that they are not told apart by what they get."""
+    return sum(state.place == place for state in world.activities) >= _APART
+
+
+def _code_of(target: Value | None, call: Call, *, given: bool) -> object:
+    """
+    Equal for what runs one text on one object, for the same objects and functions.
+
+    :param given: constants that it is given count too, as keys of what each uses.
+    """
+    values = (option for v in (*call.args, *call.keywords.values()) for option in options_of(v))
+    kinds = (Instance, Const, *_CODE) if given else (Instance, *_CODE)
+    arguments = tuple(_text_of(v) for v in values if isinstance(v, kinds))
     return tuple(_text_of(option) for option in options_of(target or NONE)), arguments
 
 
 _CODE = (Bound, Function, Partial)
+_APART = 4
 
 
 def _text_of(target: Value) -> object:
+    if isinstance(target, Const):
+        return target
     if isinstance(target, Partial):
         return _text_of(target.function)
     if isinstance(target, Bound):

@@ -74,6 +74,7 @@ from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import (
     why_gone,
     why_in_another_run,
     why_lost,
+    why_tested,
     why_unspun,
 )
 from ros2cc_extract.extract.static.units.wakers.unique_waker import the_setter, waited_name
@@ -356,6 +357,7 @@ class UnitWaits(DataWriters):
         unsure = unsure or why_uneven(able, self.rounds)
         unsure = unsure or self._why_unsure(raw, reference, mine, doer)
         unsure = unsure or why_in_another_run(raw, mine, doer)
+        unsure = unsure or why_tested(mine, doer, self._name)
         unsure = unsure or why_no_thread(mine, doer, self._name) or why_no_end(able, doer)
         if unsure is not None:
             found = list(as_unsure(found))

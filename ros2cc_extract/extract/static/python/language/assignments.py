@@ -32,6 +32,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Scope,
     Value,
     choice,
+    options_of,
 )
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.model import When
@@ -179,6 +180,8 @@ class Assignments(Machine):
 
     def _unpack(self, targets: Sequence[ast.expr], value: Value, frame: Frame) -> None:
         place = frame.place(targets[0]) if targets else Place('')
+        # What is None has no parts: there it raises.
+        value = choice([each for each in options_of(value) if each != NONE] or [value])
         items, rest = self.items_of(value, place)
         by_default = items_by_default(value)
         if by_default:

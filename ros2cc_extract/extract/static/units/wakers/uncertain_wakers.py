@@ -33,6 +33,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     GroupState,
     RosWorld,
 )
+from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.wakers.operations import gives_one_of_several
 from ros2cc_extract.source_locations import Place, Unknown
@@ -138,6 +139,29 @@ def _is_of(end: End, waker: EntityState) -> bool:
 def _ends_all(end: End, world: RosWorld) -> bool:
     """Whether its doer shuts rclpy down as well."""
     return any(other.doer is end.doer and other.kind == SHUTDOWN for other in world.ends)
+
+
+def why_tested(mine: Sequence[Waking], doer: Doer, name: Names) -> Unknown | None:
+    """
+    Why data decides whether the threads that end a wait have been started.
+
+    A callback starts them, and writes what ``doer`` has read: ``if self.worker is None: return``.
+    """
+    read = {access.name for access in doer.effects.reads} if doer.effects else set()
+    found: Unknown | None = None
+    for waking in mine:
+        is_end = waking.word is Word.END
+        starts = waking.by.starts if isinstance(waking.by, ActivityState) and not is_end else []
+        if not starts or any(start.by is doer and not start.conditional for start in starts):
+            return None
+        for start in starts:
+            if not isinstance(start.by, EntityState):
+                return None
+            tested = sorted(read & _written_by(start.by))
+            if tested and found is None:
+                reason = f'{tested[0]} says whether {name(start.by)} has started its thread'
+                found = Unknown(reason, start.place)
+    return found
 
 
 def why_unspun(
