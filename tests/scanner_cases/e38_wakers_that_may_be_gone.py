@@ -103,7 +103,7 @@ if __name__ == '__main__':
 #     writes Starter.is_ready under ready @58
 #     locks ready @57
 #   timer start in start_group every 2 node=starter
-#     blocks Condition.wait on prepare through ready each conditional @64
+#     blocks Condition.wait on prepare through ready conditional @64
 #       ended by prepare @59
 #     reads Starter.is_ready under ready @63
 #     locks ready @62

@@ -15,6 +15,7 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Effect
 from ros2cc_extract.extract.static.python.values.values import Bound, Class, Instance
 from ros2cc_extract.extract.static.units.callback_names import FunctionFacts, describe
 from ros2cc_extract.extract.static.units.waits import UnitWaits
+from ros2cc_extract.extract.static.units.wakers.endless_threads import starts_itself
 from ros2cc_extract.spec.effects import Access, Act, Waker
 from ros2cc_extract.spec.model import Activity, ActivityKind
 
@@ -139,12 +140,12 @@ def activity(
         function=facts.function,
         node=names.get(id(owner)) or _only_node(state, names),
         cls=owner.class_name if owner is not None and isinstance(owner.cls, Class) else None,
-        starts=tuple(_starts(state, names, waits)),
+        starts=() if starts_itself(state) else tuple(_starts(state, names, waits)),
         count=state.count,
         conditional=_is_conditional(state),
         daemon=state.daemon,
         on_loop=state.on_loop,
-        loops=state.loops or waits.rounds.get(id(state), False),
+        loops=state.loops or waits.rounds.get(id(state), starts_itself(state)),
         ends_first=state.ends_first,
         unresolved=facts.unresolved,
         source=state.place,

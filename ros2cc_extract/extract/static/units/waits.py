@@ -107,8 +107,6 @@ class UnitWaits(DataWriters):
     Names what the callbacks and activities of a unit wait for.
 
     :param names: of entities, activities, nodes and the executor, by their identity.
-
-    ``rounds`` says why it is not known how often a thread goes round, by identity.
     """
 
     def __init__(self, world: RosWorld, names: dict[int, str], doers: Iterable[Doer]) -> None:
@@ -255,6 +253,7 @@ class UnitWaits(DataWriters):
             wakings = wakings_of(self._world, raw.resource)
             given = [w for w in wakings if w.word in raw.resource.ended_by]
             named = self._with_ends(named, raw, raw.resource, given, doer)
+            named, wakers = self._as_data_stays(named, wakers, raw.resource, given, doer)
             initial = self._initial(raw.resource, wakings)
             if given and may_find_it_done(raw, wakings, doer):
                 initial = None

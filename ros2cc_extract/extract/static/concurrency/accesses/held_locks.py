@@ -71,6 +71,14 @@ def is_signal(world: ConcurrentWorld, lock: Instance) -> bool:
     return is_stock or is_counter(world, lock)
 
 
+def holds_lock_of(world: ConcurrentWorld, thing: Value) -> bool:
+    """Whether the lock of a condition, or one that may be it, is held."""
+    return all(
+        any(each is lock_of(option) for name in world.held for each, _ in locks_named(name, world))
+        for option in options_of(thing)
+    )
+
+
 def lock_of(thing: Value) -> Value:
     """The lock that is taken with ``thing``: a condition may have been given one."""
     given = thing.slots.get(GIVEN) if isinstance(thing, Instance) else None

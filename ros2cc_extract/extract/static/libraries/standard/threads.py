@@ -5,7 +5,11 @@ from __future__ import annotations
 import ast
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.concurrency.accesses import lost_notifications, signal_locks
+from ros2cc_extract.extract.static.concurrency.accesses import (
+    held_locks,
+    lost_notifications,
+    signal_locks,
+)
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import GIVEN, is_signal
 from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
@@ -195,6 +199,28 @@ def _wakes(word: Word) -> Handler:
     return handler
 
 
+def _notify(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """It wakes so many of those that wait."""
+    return _notify_some(machine, receiver, call, call.argument(0, 'n') or Const(1))
+
+
+def _notify_all(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    return _notify_some(machine, receiver, call, None)
+
+
+def _notify_some(
+    machine: ConcurrentMachine, receiver: Value, call: Call, number: Value | None
+) -> Value:
+    """Without the lock it raises (CPython 3.12, ``threading.py``), as far as that is known."""
+    world = machine.world
+    path = world.path
+    if world.effects is not None and not held_locks.holds_lock_of(world, receiver):
+        world.path = (*path, (call.place, 0))
+    machine.note_wake(receiver, Word.SET, call.place, number)
+    world.path = path
+    return NONE
+
+
 def _take_lock(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     """A lock that the set-up takes is for others to give back, as a semaphore of nothing."""
     assert isinstance(receiver, Instance)
@@ -358,9 +384,9 @@ _PLAIN_METHODS: dict[str, dict[str, Handler]] = {
         **_LOCK_METHODS,
         'wait': _blocking('Condition.wait', 0, 'timeout'),
         'wait_for': _wait_for,
-        'notify': _wakes(Word.SET),
-        'notify_all': _wakes(Word.SET),
-        'notifyAll': _wakes(Word.SET),
+        'notify': _notify,
+        'notify_all': _notify_all,
+        'notifyAll': _notify_all,
     },
     'semaphore': {'acquire': _take, 'release': _give},
     'event': {

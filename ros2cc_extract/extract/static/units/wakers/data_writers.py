@@ -13,7 +13,9 @@ from ros2cc_extract.extract.static.concurrency.machine.state import ActivityStat
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     DataRef,
     MessageRef,
+    ResourceRef,
     TopicRef,
+    Waking,
 )
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import is_in_process
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import come_behind
@@ -26,6 +28,7 @@ from ros2cc_extract.extract.static.python.values.containers import Collection
 from ros2cc_extract.extract.static.python.values.values import Value
 from ros2cc_extract.extract.static.units.wakers.endless_threads import may_be_over
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_off_its_loop
+from ros2cc_extract.extract.static.units.wakers.operations import as_unsure
 from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import RECURRING
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
@@ -96,6 +99,50 @@ class DataWriters:
             return False
         item = access.item if access.in_place else None
         return all(test.stays(access.name, item, known) for test in on.tests)
+
+    def _as_data_stays(
+        self,
+        named: Blocking,
+        wakers: list[Waker],
+        reference: ResourceRef,
+        given: Sequence[Waking],
+        doer: Doer,
+    ) -> tuple[Blocking, list[Waker]]:
+        """A wait and its wakers: of what stays as it is, one waker ends all waits."""
+        stays = self._stays_so(reference, given, doer)
+        if stays is False:
+            return named, wakers
+        return replace(named, needs=Needs.ONCE), wakers if stays else list(as_unsure(wakers))
+
+    def _stays_so(
+        self, reference: ResourceRef, given: Sequence[Waking], doer: Doer
+    ) -> bool | None:
+        """
+        Whether what a wait for a condition asks for stays as it is from the first time on.
+
+        ``None`` where that is not sure: a method is asked, or a number grows. All that wait are
+        notified then, or there is one: ``wait_for(lambda: self.ready)``.
+        """
+        guard = reference.guard
+        names = (guard.until or guard.names) if guard is not None else frozenset()
+        logs = [(each, each.effects or EffectLog()) for each in self._doers]
+        writes = [(by, w) for by, log in logs for w in log.writes if w.name in names]
+        waiting = [by for by, log in logs if any(_is_for(b, reference) for b in log.blocking)]
+        is_for_all = len(waiting) < 2 or all(waking.item is None for waking in given)
+        if guard is None or not writes or not is_for_all or any(by is doer for by, _ in writes):
+            return False
+        are_set = all(self._is_set(write) for _, write in writes)
+        if are_set and guard.until and not guard.is_of_several:
+            return True
+        steps = [(by.effects or EffectLog()).steps.get(write.source) for by, write in writes]
+        added = [step.by if step is not None else 0 for step in steps]
+        return None if are_set or min(added) > 0 or max(added) < 0 else False
+
+    def _is_set(self, write: Access) -> bool:
+        """Whether it stores a value that does not say *no*, as a whole."""
+        is_whole = not (write.update or write.in_place)
+        is_no = write.source is not None and not self._world.literals.get(write.source, True)
+        return is_whole and not is_no
 
     def _movers(self, taker: object, topic: MessageRef) -> tuple[Waker, ...]:
         """What brings it: the subscription, and a publisher that sends to it."""
@@ -188,6 +235,10 @@ class DataWriters:
         is_open = is_open or is_off_its_loop(doer, self._doers)
         is_open = is_open or may_be_over(doer, (name, source))
         return Waker(by=self._names[id(doer)], source=source, after=after, conditional=is_open)
+
+
+def _is_for(block: Blocking, reference: ResourceRef) -> bool:
+    return isinstance(block.resource, ResourceRef) and block.resource.number == reference.number
 
 
 def _is_before(access: Access, on: DataRef) -> bool:

@@ -67,7 +67,19 @@ def unknown_rounds(world: RosWorld) -> Mapping[int, Unknown]:
         if waking.in_loop and isinstance(by, ActivityState) and not _is_known(by):
             reason = 'how many rounds the loop around it has is not known'
             found.setdefault(id(by), Unknown(reason, waking.place))
+    for thread in world.activities:
+        again = next((start for start in thread.starts if start.by is thread), None)
+        if starts_itself(thread) and again is not None and again.conditional:
+            found[id(thread)] = Unknown(
+                'a branch decides whether it starts itself again', again.place
+            )
     return found
+
+
+def starts_itself(thread: ActivityState) -> bool:
+    """Whether the set-up starts it, and then it itself, as a timer that is armed again."""
+    by = [start.by for start in thread.starts]
+    return thread in by and None in by
 
 
 def why_uneven(wakings: Iterable[Waking], rounds: Mapping[int, Unknown]) -> Unknown | None:
