@@ -87,6 +87,26 @@ def on_begin(self, request, response):
     return response
 
 """
+LOAD = """\
+def work(self):
+    if self.count_publishers('map') == 0:
+        raise RuntimeError('not ready')
+    self.event.set()"""
+LAST = """\
+def work(self):
+    try:
+        if self.count_publishers('map') == 0:
+            raise RuntimeError('not ready')
+    finally:
+        self.event.set()"""
+SETS = SERVE.replace(
+    'self.replied.put(self.asked.get())', 'self.asked.get()\n        self.event.set()'
+)
+NOTIFIES = SETS.replace('self.event.set()', 'with self.cond:\n            self.cond.notify()')
+ASK_EVENT = "self.event.clear()\nself.asked.put('a')\nself.event.wait()"
+ASK_EARLY = "self.asked.put('a')\nself.event.clear()\nself.event.wait()"
+ASK_BARE = "self.asked.put('a')\nwith self.cond:\n    self.cond.wait()"
+ASK_HELD = "with self.cond:\n    self.asked.put('a')\n    self.cond.wait()"
 KEPT, OPEN, BROKEN = 'kept', 'undecided', 'broken'
 
 WAYS: dict[str, tuple[str, str, str, str, str]] = {
@@ -113,6 +133,21 @@ WAYS: dict[str, tuple[str, str, str, str, str]] = {
         WAITS.replace('lambda: self.ready', 'self.is_ready'),
         '',
         OPEN,
+    ),
+    'cleared in time': (THREAD, SETS, ASK_EVENT, '', KEPT),
+    'cleared too late': (THREAD, SETS, ASK_EARLY, '', OPEN),
+    'waits too late': (THREAD, NOTIFIES, ASK_BARE, '', OPEN),
+    'asks in the hold': (THREAD, NOTIFIES, ASK_HELD, '', KEPT),
+    'fails': (THREAD, LOAD, 'self.event.wait()', '', OPEN),
+    'fails and tells': (THREAD, LAST, 'self.event.wait()', '', KEPT),
+    'tells and fails': (
+        THREAD,
+        LOAD.replace('def work(self):', 'def work(self):\n    self.event.set()').removesuffix(
+            '\n    self.event.set()'
+        ),
+        'self.event.wait()',
+        '',
+        KEPT,
     ),
     'armed again': ('self.arm()', FIRE, BEAT, '', KEPT),
     'armed some times': (

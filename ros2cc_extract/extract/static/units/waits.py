@@ -43,6 +43,7 @@ from ros2cc_extract.extract.static.units.wakers.late_offers import offered_late
 from ros2cc_extract.extract.static.units.wakers.lost_events import (
     answer_from_outside,
     sent_before_clear,
+    why_early,
     why_wiped_out,
 )
 from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import keeps_to_itself
@@ -74,7 +75,7 @@ from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import (
     why_gone,
     why_in_another_run,
     why_lost,
-    why_tested,
+    why_not_there,
     why_unspun,
 )
 from ros2cc_extract.extract.static.units.wakers.unique_waker import the_setter, waited_name
@@ -356,7 +357,7 @@ class UnitWaits(DataWriters):
         unsure = unsure or why_uneven(able, self.rounds)
         unsure = unsure or self._why_unsure(raw, reference, mine, doer)
         unsure = unsure or why_in_another_run(raw, mine, doer)
-        unsure = unsure or why_tested(mine, doer, self._name)
+        unsure = unsure or why_not_there(self._world, mine, doer, self._name)
         unsure = unsure or why_no_thread(mine, doer, self._name) or why_no_end(able, doer)
         if unsure is not None:
             found = list(as_unsure(found))
@@ -399,8 +400,7 @@ class UnitWaits(DataWriters):
         """Why those that end a wait may be gone by then, or come too early."""
         stays = reference.is_kept and reference.number not in self._world.cleared
 
-        def comes_after(end: End) -> bool:
-            """Of one's own waits the first has ended, and with it all."""
+        def comes_after(end: End) -> bool:  # of one's own waits the first has ended, and so all
             return stays and self._is_behind(end, raw, doer)
 
         wakers = [waking.by for waking in mine]
@@ -411,8 +411,9 @@ class UnitWaits(DataWriters):
         if why is not None or forgets(reference, mine, doer):
             return why
         why = why_lost(self._world, reference, mine, doer, self._doers, self._name)
-        is_for_ever = raw.seconds is None and why is None
-        return why_wiped_out(reference, mine, doer, self._doers) if is_for_ever else why
+        if raw.seconds is not None or why is not None:
+            return why
+        return why_wiped_out(reference, mine, doer, self._doers) or why_early(reference, mine)
 
     def _is_behind(self, end: End, raw: Blocking, doer: Doer) -> bool:
         """Whether ``doer`` itself ends it, when it has waited."""

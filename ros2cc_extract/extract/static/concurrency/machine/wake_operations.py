@@ -83,6 +83,7 @@ class ResourceRef(SettableRef):
     :param guard: of a condition.
     :param answered: topics of messages whose answers may be gone, see ``cleared_events.py``.
     :param sent: topics of messages that come before the wait, and behind the one before.
+    :param given: things given before it, or before the event is cleared, and the holds of locks.
     :param until: of a queue, the tests of the loop that ends by an item, see ``item_loops.py``.
     """
 
@@ -98,6 +99,7 @@ class ResourceRef(SettableRef):
     guard: Guard | None = None
     answered: frozenset[str] = frozenset()
     sent: frozenset[str] = frozenset()
+    given: frozenset[tuple[int, frozenset[Hold]]] = frozenset()
 
     def with_end(self, until: tuple[LoopTest, ...]) -> ResourceRef:
         """The same queue, for a loop that takes from it until such an item comes."""

@@ -23,10 +23,10 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     TopicRef,
     Waking,
 )
-from ros2cc_extract.extract.static.concurrency.waits import outside_waits, values_during_waits
-from ros2cc_extract.extract.static.concurrency.waits.cleared_events import (
-    sent_before,
-    sent_before_clear,
+from ros2cc_extract.extract.static.concurrency.waits import (
+    cleared_events,
+    outside_waits,
+    values_during_waits,
 )
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import waking_of
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
@@ -205,9 +205,7 @@ class Waits(ConcurrentMachine):
         reference.asked = asked
         reference.is_kept = row.needs is Needs.ONCE
         if self.world.effects is not None:
-            reference.sent = sent_before(self.world.effects, thing)
-            answered = sent_before_clear(self.world.effects, thing)
-            reference.answered = answered if reference.is_kept else frozenset()
+            cleared_events.begin_wait(reference, self.world.effects, thing)
         reference.initial = _initial(thing, row)
         reference.made, reference.is_own = thing.place, thing.born is not None
         if Word.ARRIVE in row.ended_by:
@@ -307,6 +305,7 @@ class Waits(ConcurrentMachine):
         for option in options_of(thing):
             if is_in_process(activity) and is_of_one_process(option):
                 continue
+            cleared_events.note_given(world.effects, option, lost_notifications.holds_of(world))
             if world.effects is not None:
                 world.effects.woken.setdefault(id(option), len(world.effects.blocking))
             wakings = world.wakings.setdefault(id(option), [])

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ros2cc_extract.extract.static.concurrency.accesses.lost_notifications import is_heard
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef, Waking
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
-from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, way_of
 from ros2cc_extract.extract.static.python.values.values import Const
+from ros2cc_extract.extract.static.units.wakers.uncertain_wakers import notifier_of
 from ros2cc_extract.source_locations import Unknown
 from ros2cc_extract.spec.model import EntityKind
 
@@ -56,6 +58,36 @@ def why_wiped_out(
         return None
     reason = f'what ends it may come for the message on {topics} that is sent before the clear'
     return Unknown(reason, mine[0].place)
+
+
+def why_early(reference: ResourceRef, mine: Sequence[Waking]) -> Unknown | None:
+    """
+    Why threads that end a wait may do so before it, or before the event is cleared, and not again.
+
+    Each does it for what the code that waits has given before: ``jobs.put(); done.clear()``.
+    """
+    guard = reference.guard
+    if guard is None and not reference.is_kept:
+        return None  # a queue keeps what comes early
+    if guard is not None and is_heard(guard, list(map(notifier_of, mine))):
+        return None
+    held = guard.hold if guard is not None else None
+    given = {number for number, holds in reference.given if held not in holds}
+    found = [_asked_for(waking, given) for waking in mine]
+    if None in found or not found:
+        return None
+    when = 'before the clear' if reference.is_kept else 'before the wait'
+    return Unknown(f'what ends it may come for what {found[0]} gets {when}', mine[0].place)
+
+
+def _asked_for(waking: Waking, given: set[int]) -> str | None:
+    """The queue, or whatever it is, from which a thread takes something before it ends a wait."""
+    if not isinstance(waking.by, ActivityState):
+        return None
+    for block in waking.by.effects.blocking:
+        if way_of(block) == waking.behind and isinstance(block.resource, ResourceRef):
+            return str(block.resource) if block.resource.number in given else None
+    return None
 
 
 def _answers(sent: frozenset[str], doers: Sequence[Doer]) -> frozenset[str]:

@@ -9,6 +9,7 @@ runs once only, which a condition forgets if nothing waits yet. Sources: rclpy 7
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -33,6 +34,7 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     GroupState,
     RosWorld,
 )
+from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.wakers.operations import gives_one_of_several
@@ -127,6 +129,42 @@ def _why_thread_ends(
     return None
 
 
+def _why_raised(world: RosWorld, mine: Sequence[Waking], name: Names) -> Unknown | None:
+    """Why all the threads that end a wait may have ended by an error before they come to it."""
+    found = []
+    for waking in mine:
+        ends = (each for each in world.ends if _raises_before(each, waking, world))
+        end = next(ends, None)
+        if end is None:
+            return None
+        who = name(end.doer) or 'a thread'
+        found.append(Unknown(f'{who}, which ends it, may end by {end.text}', end.place))
+    return found[0] if found else None
+
+
+def _raises_before(end: End, waking: Waking, world: RosWorld) -> bool:
+    """Whether a thread raises in front of what it does, as far as the text shows."""
+    is_its_own = end.kind == RAISES and end.doer is waking.by and waking.word is not Word.END
+    if not is_its_own or not isinstance(waking.by, ActivityState):
+        return False
+    at, there = end.place, waking.place
+    if at.file == there.file and at.line > there.line:
+        return False
+    trees = (tree for tree, file in world.files if file == there.file)
+    tries = [each for tree in trees for each in noted_on(tree, 'tries', _tries)]
+    # What a finally does is done in any case, unless the error comes before its try.
+    around = [each for each in tries if any(_covers(part, there) for part in each.finalbody)]
+    return not around or all(at.line < each.lineno for each in around if at.file == there.file)
+
+
+def _tries(tree: ast.Module) -> list[ast.Try]:
+    return [each for each in walk(tree) if isinstance(each, ast.Try) and each.finalbody]
+
+
+def _covers(part: ast.stmt, place: Place) -> bool:
+    return part.lineno <= place.line <= (part.end_lineno or part.lineno)
+
+
 def _is_of(end: End, waker: EntityState) -> bool:
     is_its_own = end.what is waker and waker.when is not When.CALLBACK  # else made again
     if end.kind == CANCEL:
@@ -141,7 +179,14 @@ def _ends_all(end: End, world: RosWorld) -> bool:
     return any(other.doer is end.doer and other.kind == SHUTDOWN for other in world.ends)
 
 
-def why_tested(mine: Sequence[Waking], doer: Doer, name: Names) -> Unknown | None:
+def why_not_there(
+    world: RosWorld, mine: Sequence[Waking], doer: Doer, name: Names
+) -> Unknown | None:
+    """Why the threads that end a wait may not have been started, or have failed by then."""
+    return _why_tested(mine, doer, name) or _why_raised(world, mine, name)
+
+
+def _why_tested(mine: Sequence[Waking], doer: Doer, name: Names) -> Unknown | None:
     """
     Why data decides whether the threads that end a wait have been started.
 
@@ -237,7 +282,7 @@ def _when_lost(
     guard = reference.guard
     if guard is None:
         return None
-    notifiers = [_notifier(waking) for waking in mine]
+    notifiers = [notifier_of(waking) for waking in mine]
     if not is_heard(guard, notifiers):
         return 'before anybody waits'
     wakers = [waking.by for waking in mine]
@@ -273,7 +318,8 @@ def _asked_first(by: EntityState) -> EntityState:
     return by
 
 
-def _notifier(waking: Waking) -> Notifier:
+def notifier_of(waking: Waking) -> Notifier:
+    """The code that notifies, with what it writes."""
     by = waking.by
     if not isinstance(by, (EntityState, ActivityState)):
         return Notifier(waking, None, frozenset(), {})
@@ -297,7 +343,7 @@ def forgets(reference: ResourceRef, mine: Sequence[Waking], doer: Doer) -> bool:
     guard = reference.guard
     if guard is None or not any(_is_modelled(waking, doer) for waking in mine):
         return False
-    return not is_heard(guard, [_notifier(waking) for waking in mine])
+    return not is_heard(guard, [notifier_of(waking) for waking in mine])
 
 
 def is_unheard(waking: Waking, doer: Doer) -> bool:
