@@ -174,6 +174,7 @@ WAYS: dict[str, tuple[str, str, str, str, str]] = {
         BROKEN,
     ),
     'parts of an item': (THREAD, PAIR, ASK_PAIR, 'node.asked.put(None)', KEPT),
+    'started perhaps': (f"if self.count_publishers('map'):\n    {THREAD}", SERVE, ASK, '', OPEN),
     'started before': (
         BEGIN,
         BEGINS + SERVE,

@@ -34,6 +34,7 @@ from ros2cc_extract.extract.static.units.wakers import barriers, initial_permits
 from ros2cc_extract.extract.static.units.wakers.data_writers import DataWriters, Doer, Kept
 from ros2cc_extract.extract.static.units.wakers.endless_threads import (
     is_never_left,
+    may_not_come,
     never_comes,
     unknown_rounds,
     why_no_end,
@@ -473,18 +474,17 @@ class UnitWaits(DataWriters):
     ) -> bool:
         """Whether ``waking`` perhaps does not come, or not while ``doer`` waits."""
         is_done = stays and waking.unless_done
-        if waking.conditional and not (is_done or self._is_never_left(waking)):
+        if waking.conditional and not (
+            is_done or is_never_left(waking, self._world, self._is_written)
+        ):
             return True
         if self._forgets(reference, doer) and is_unheard(waking, doer):
             return True
         if reference.guard is not None and waking.by is doer and is_unheard(waking, doer):
             return True  # it notifies before it waits itself
-        if not stays and id(waking.by) in self.rounds:
+        if may_not_come(waking, doer, self.rounds, stays=stays):
             return True
         return is_kept_out(waking, reference, doer, self._doers, raw)
-
-    def _is_never_left(self, waking: Waking) -> bool:
-        return is_never_left(waking, self._world, lambda on: any(True for _ in self._writes(on)))
 
     def _initial(self, reference: ResourceRef, mine: list[Waking]) -> int | None:
         """How many waits end without a waker, as the set-up leaves it."""

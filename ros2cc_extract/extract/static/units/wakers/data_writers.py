@@ -90,6 +90,10 @@ class DataWriters:
                 if is_meant and not self._leaves_as_is(access, on):
                     yield doer, access
 
+    def _is_written(self, on: DataRef) -> bool:
+        """Whether anything in the unit writes what a loop waits for."""
+        return any(True for _ in self._writes(on))
+
     def _leaves_as_is(self, access: Access, on: DataRef) -> bool:
         """Whether a write stores what lets the loop go on, or another item than it asks for."""
         if _is_of_other_item(access, on):

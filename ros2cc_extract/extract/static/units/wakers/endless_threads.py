@@ -14,7 +14,7 @@ from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,
     uncalled_wakers,
 )
-from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld
+from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import way_of
 from ros2cc_extract.extract.static.units.wakers.operations import comes_last, wakings_of
@@ -95,6 +95,27 @@ def why_uneven(wakings: Iterable[Waking], rounds: Mapping[int, Unknown]) -> Unkn
             if ways - by.effects.looped:
                 return rounds[id(by)]
     return None
+
+
+def may_not_come(
+    waking: Waking,
+    doer: EntityState | ActivityState,
+    rounds: Mapping[int, Unknown],
+    *,
+    stays: bool,
+) -> bool:
+    """
+    Whether the thread that does it may be over, or was not started.
+
+    :param stays: what is done once is done for good; else it may be one of the ``rounds``.
+    """
+    by = waking.by
+    if not isinstance(by, ActivityState) or waking.word is Word.END:
+        return False
+    # A branch of the set-up skips the thread, and not who waits for it.
+    is_of_set_up = bool(by.starts) and all(start.by is None for start in by.starts)
+    is_skipped = is_of_set_up and by.path != doer.path[: len(by.path)]
+    return is_skipped or (not stays and id(by) in rounds)
 
 
 def may_be_over(doer: object, write: object) -> bool:
