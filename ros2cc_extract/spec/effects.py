@@ -241,6 +241,8 @@ class Access:
     :param constant: true for a write that rests on a test and stores a constant, as of a flag.
     :param compared: true for a read that only asks whether it is still what the code has in a
         name of its own.
+    :param fresh: true for a read to which no way leads on which the run has stored that data and
+        has waited since.
     :param admits: true for a read of a goal callback because of which it turns goals down.
     :param later: true for the use of an object where something was called since it was tested, and
         for the write of a value where something was called since that was read.
@@ -269,6 +271,7 @@ class Access:
     found: str | None = None
     constant: bool = False
     compared: bool = False
+    fresh: bool = False
     admits: bool = False
     later: bool = False
     joins: str | None = None

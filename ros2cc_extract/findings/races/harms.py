@@ -128,7 +128,7 @@ def overwritten(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
     for reader, writer in ((one, other), (other, one)):
         for read in reader.reads:
             own = _last_write_before(read, reader)
-            if own is None or read.compared or not waits(own, read, reader):
+            if own is None or read.compared or read.fresh or not waits(own, read, reader):
                 continue
             kept = kept_between(own, read, reader)
             yield from (

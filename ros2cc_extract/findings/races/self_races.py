@@ -115,6 +115,6 @@ def _is_overwritten(read: Access, writes: list[Access], callback: Callback) -> b
     """Whether a run reads, after a wait, what it has written before."""
     own = [w for w in writes if w.name == read.name and steps(w) < steps(read) and not w.update]
     last = max(own, key=steps, default=None)
-    if last is None or read.compared or not waits(last, read, callback):
+    if last is None or read.compared or read.fresh or not waits(last, read, callback):
         return False
     return not keep_apart(kept_between(last, read, callback), last.locks)

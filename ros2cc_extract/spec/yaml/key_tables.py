@@ -145,6 +145,7 @@ ACCESS = record(
                 ('found', 'found', optional(TEXT)),
                 ('constant', 'constant', FLAG),
                 ('compared', 'compared', FLAG),
+                ('fresh', 'fresh', FLAG),
                 ('admits', 'admits', FLAG),
                 ('later', 'later', FLAG),
                 ('joins', 'joins', optional(TEXT)),

@@ -129,3 +129,124 @@ def test_a_test_and_its_write_are_parted_by_a_function_of_the_program(
     units = scan_text(GATE.format(between=between)).units
     found = findings_of(units, [], [None] * len(units))
     assert [f.severity for f in found if f.code == 'CC304'] == [severity]
+
+
+WAYS = """
+import time
+import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+
+
+class Streamer(Node):
+    def __init__(self):
+        super().__init__('streamer')
+        self.state = None
+        self.create_timer(0.1, self.tick, callback_group=ReentrantCallbackGroup())
+
+    def now(self):
+        return self.get_clock().now().nanoseconds
+
+    def store(self):
+        self.state = self.now()
+        time.sleep(0.3)
+
+    def show(self):
+        self.get_logger().info(f'state {{self.state}}')
+
+    def either(self, stores):
+        if stores:
+            self.store()
+        else:
+            self.show()
+
+    def tick(self):
+{body}
+
+
+rclpy.init()
+executor = MultiThreadedExecutor(num_threads=3)
+executor.add_node(Streamer())
+executor.spin()
+"""
+ONE_WAY = {
+    'in a row': 'self.store(); self.show()',
+    'behind a branch': """if self.now() % 2:
+    self.store()
+self.show()""",
+    'in two branches': """odd = self.now() % 2
+if odd:
+    self.store()
+if odd:
+    self.show()""",
+    'in two calls': 'self.either(True); self.either(False)',
+    'in two calls by data': 'self.either(self.now() % 2); self.either(self.now() % 3)',
+    'behind a loop that is left': """for number in range(self.now()):
+    if number % 7:
+        self.store()
+        break
+self.show()""",
+    'in two rounds': """while self.now() % 2:
+    if self.now() % 3:
+        self.store()
+    else:
+        self.show()""",
+    'in a handler': """try:
+    self.state = self.now()
+    int('x')
+except ValueError:
+    time.sleep(0.3)
+self.show()""",
+    'behind what returns': """try:
+    if self.now() % 2:
+        self.store()
+        return
+finally:
+    self.show()""",
+    'in a test': """if self.now() and self.store():
+    pass
+self.show()""",
+}
+NO_WAY = {
+    'in two arms': """if self.now() % 2:
+    self.store()
+else:
+    self.show()""",
+    'in a function of two arms': 'self.either(self.now() % 2)',
+    'behind a return': """if self.now() % 2:
+    self.store()
+    return
+self.show()""",
+    'the wait alone returns': """self.state = self.now()
+if self.state % 2:
+    time.sleep(0.3)
+    return
+self.show()""",
+    'the handler returns': """try:
+    self.state = self.now()
+except ValueError:
+    time.sleep(0.3)
+    return
+self.show()""",
+    'stored again': """if self.now() % 2:
+    self.store()
+    self.state = 1
+self.show()""",
+}
+
+
+@pytest.mark.parametrize(
+    ('body', 'is_said'),
+    [
+        *(pytest.param(body, True, id=name) for name, body in ONE_WAY.items()),
+        *(pytest.param(body, False, id=name) for name, body in NO_WAY.items()),
+    ],
+)
+def test_the_write_the_wait_and_the_read_lie_on_one_way(body: str, is_said: bool) -> None:
+    text = WAYS.format(body='\n'.join(f'        {line}' for line in body.splitlines()))
+    units = scan_text(text).units
+    found = findings_of(units, [], [None] * len(units))
+    assert ['and reads it here' in f.message for f in found if f.code == 'CC304'] == (
+        [True] if is_said else []
+    )

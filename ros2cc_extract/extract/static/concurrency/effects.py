@@ -207,6 +207,7 @@ class Effects(Waits):
             rests=is_used or (rests and not (is_read or (is_stored and is_import))),
             bare=not rests and data_kinds.is_bare(self.world, is_content or at in reading.used),
             compared=is_read and at in reading.compared,
+            fresh=is_read and self.world.is_fresh(name),
             later=self._is_late(name, is_used=is_used or (is_content and is_tested), kind=kind),
             clears=is_stored and reading.stored == NONE,
             lowers=is_stored and reading.stored != NONE and data_kinds.is_false(reading.stored),
@@ -219,6 +220,7 @@ class Effects(Waits):
         )
         _note_closer(effects.reads if is_read else effects.writes, access)
         if kind is AccessKind.WRITE:
+            self.world.note_stored(name)
             flag_locks.put_down(self.world, name)
             reading.forget(name, self.world.path)
         if not is_read:

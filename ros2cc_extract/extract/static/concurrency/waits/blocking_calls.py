@@ -109,7 +109,7 @@ class Waits(ConcurrentMachine):
         touch(world.activity, thing)
         if thing is not None:
             self.store.show(thing)
-        effects.behind = way_of(block)
+        world.note_waited(way_of(block))
         if world.open_loops:
             effects.looped.add(way_of(block))
         sure = tuple(number for number in world.round if number > 0)
@@ -173,7 +173,7 @@ class Waits(ConcurrentMachine):
             return
         if is_main(world.activity):
             self._note_in_set_up(block, None, place, spun)
-        effects.behind = way_of(block)
+        world.note_waited(way_of(block))
         if block not in effects.blocking[-RECENT:]:
             effects.blocking.append(block)
 

@@ -17,7 +17,7 @@ from ros2cc_extract.extract.static.concurrency.machine.machine import Concurrent
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.machine.fixed_point import is_same_text, note_found
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
-from ros2cc_extract.extract.static.python.machine.path_facts import Word
+from ros2cc_extract.extract.static.python.machine.path_facts import Word, back_to
 from ros2cc_extract.extract.static.python.machine.waitable_objects import OF_POOL
 from ros2cc_extract.extract.static.python.values.values import (
     ABSENT,
@@ -197,7 +197,7 @@ def _run(machine: ConcurrentMachine, future: Instance, callback: Value, place: P
     ready = world.ready
     world.ready = ready | {(future, Word.SET), (future, Word.END)}
     machine.call(callback, Call(place, [future]))
-    world.ready = ready
+    world.ready = back_to(ready, world.ready)
     return NONE
 
 

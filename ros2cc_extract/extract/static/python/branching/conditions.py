@@ -59,7 +59,7 @@ def boolean(machine: Machine, node: ast.BoolOp, frame: Frame) -> Value:
                 found.append(option)
         if not is_open and machine.truth(value) is stops_on:
             break
-    machine.world.ready = ready
+    machine.world.ready = path_facts.back_to(ready, machine.world.ready)
     if len(values) == len(node.values):
         answer = path_facts.joined(values, node)
         if answer is not None:

@@ -41,7 +41,8 @@ class Comprehensions(Machine):
         # Code that takes from a generator may stop before its end, as ``any`` does.
         is_whole = not isinstance(node, ast.GeneratorExp)
         self._generate(node.generators, inner, collect, None, is_whole=is_whole)
-        picked, self.world.ready = self.world.ready - ready, ready
+        picked = self.world.ready - ready - path_facts.perhaps(self.world.ready)
+        self.world.ready = path_facts.back_to(ready, self.world.ready)
         if isinstance(node, ast.DictComp):
             return Mapping(dict(collected), None, many)
         values = tuple(value for _, value in collected)

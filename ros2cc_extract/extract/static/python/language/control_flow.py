@@ -156,6 +156,7 @@ def run_for(machine: Machine, node: ast.For | ast.AsyncFor, frame: Frame) -> int
         items = loops.items_to_run(machine, rounds, place)
 
     with (
+        machine.world.left_anywhere(),
         _loop(machine, frame),
         machine.world.reading.in_loop(open_tests.asked_by_rounds(node, frame)),
     ):
@@ -194,7 +195,7 @@ def run_while(machine: Machine, node: ast.While, frame: Frame) -> int:
     if holds is False or (holds is None and machine.is_over(node, frame)):
         return machine.execute_block(node.orelse, frame)
     implied, ready = path_facts.implied_by(machine.world.tested), machine.world.ready
-    begun = machine.begin_loop(node, frame, implied)
+    begun, stored = machine.begin_loop(node, frame, implied), machine.world.stored_by_now()
     reason = Unknown('made in a while loop', frame.place(node))
     with (
         loops.counted(machine, reason),
@@ -215,5 +216,5 @@ def run_while(machine: Machine, node: ast.While, frame: Frame) -> int:
         machine.note_endless(node, frame.place(node))
     if flow & (NEXT | CONTINUE):
         machine.end_loop(node, frame, begun)
-    machine.world.ready = after
+    machine.world.ready = after | machine.world.stored_since(stored)
     return loops.after_loop(flow)

@@ -24,6 +24,7 @@ def run_try(machine: Machine, node: ast.Try, frame: Frame) -> int:
         return flow
 
     path, ready = machine.world.path, machine.world.ready
+    begun = machine.world.stored_by_now()
     try:
         with (
             _trying(machine, any(_catches_type_error(each) for each in node.handlers)),
@@ -32,21 +33,24 @@ def run_try(machine: Machine, node: ast.Try, frame: Frame) -> int:
             flow = regular()
     except CannotCallError:
         caught = next(each for each in node.handlers if _catches_type_error(each))
+        machine.world.ready |= machine.world.stored_since(begun)
         flow = _run_handler(machine, caught, frame)
-        return _finally(machine, node, frame, flow)
+        return _finally(machine, node, frame, flow, begun)
     stopped, machine.world.stopped = machine.world.stopped, False
     machine.world.path = path
     if node.handlers:
-        flow = _handle(machine, node, frame, ready, DEAD if stopped else flow)
+        known = ready | machine.world.stored_since(begun)
+        flow = _handle(machine, node, frame, known, DEAD if stopped else flow)
         stopped = False
-    flow = _finally(machine, node, frame, flow)
+    flow = _finally(machine, node, frame, flow, begun)
     machine.world.stopped = machine.world.stopped or stopped
     return flow
 
 
-def _finally(machine: Machine, node: ast.Try, frame: Frame, flow: int) -> int:
+def _finally(machine: Machine, node: ast.Try, frame: Frame, flow: int, begun: int) -> int:
     if not node.finalbody:
         return flow
+    machine.world.ready |= machine.world.stored_since(begun)
     final = machine.execute_block(node.finalbody, frame)
     return flow if final & NEXT else final
 

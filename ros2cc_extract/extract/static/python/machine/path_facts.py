@@ -39,6 +39,10 @@ class Word(Enum):
     WRITE = 'write'
     OTHER = 'other'
     """Of what an expression does not stand for."""
+    STORED = 'stored'
+    """Perhaps: the run has stored data of that name, and has not waited since."""
+    STALE = 'stale'
+    """Perhaps: the run has waited since it stored data of that name."""
 
 
 Facts = frozenset[tuple[Value, Word]]
@@ -163,9 +167,19 @@ def compared(op: ast.cmpop, left: Value, right: Value, node: ast.expr) -> Answer
 
 
 def of_all(ends: Iterable[Facts]) -> Facts:
-    """What has happened however the branches were left."""
+    """What has happened however the branches were left, and what may have happened."""
     kept = list(ends)
-    return frozenset.intersection(*kept) if kept else NOTHING
+    return frozenset.intersection(*kept).union(*map(perhaps, kept)) if kept else NOTHING
+
+
+def perhaps(facts: Facts) -> Facts:
+    """What one way to here is enough for."""
+    return frozenset(fact for fact in facts if fact[1] is Word.STORED or fact[1] is Word.STALE)
+
+
+def back_to(before: Facts, now: Facts) -> Facts:
+    """What was sure before, where what came since may not have been met, or may."""
+    return before | perhaps(now)
 
 
 def _of_each(values: Sequence[Value], *, stops_on: bool) -> Implied:

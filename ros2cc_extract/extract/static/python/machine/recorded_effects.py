@@ -87,6 +87,7 @@ class EffectLog:
     :param resting: loops that await something in each round.
     :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
     :param taken: the locks that were taken by now on every branch.
+    :param stored_or_stale: what was noted of data that the run has stored, see ``path_facts.py``.
     :param looked: while a test is asked for what it looks at, see ``loop_ends.py``.
     """
 
@@ -113,6 +114,7 @@ class EffectLog:
     pieces: list[Piece] = field(default_factory=list)
     woken: dict[int, int] = field(default_factory=dict)
     taken: dict[str, None] = field(default_factory=dict)
+    stored_or_stale: list[Any] = field(default_factory=list)
     looked: Looked | None = None
 
 

@@ -9,13 +9,15 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import field
 from enum import Enum
 from typing import Any, TypeVar
 
 from ros2cc_extract.diagnostics import Diagnostic
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
-from ros2cc_extract.extract.static.python.machine.path_facts import Implied, Word
+from ros2cc_extract.extract.static.python.machine.path_facts import Facts, Implied, Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer, EffectLog
 from ros2cc_extract.extract.static.python.values.values import (
     Class,
@@ -270,6 +272,45 @@ class World:
         self.effects.written.setdefault((name, place), (self.effects.behind, is_open))
         if self.open_loops:
             self.effects.looped.add((name, place))
+
+    def note_stored(self, name: str) -> None:
+        """The run has stored data itself: it may rely on that until it waits."""
+        self.ready -= {(Const(name), Word.STALE)}
+        self._note_perhaps(frozenset({(Const(name), Word.STORED)}))
+
+    def note_waited(self, way: object) -> None:
+        """The run waits: others may store what it has stored."""
+        if self.effects is not None:
+            self.effects.behind = way
+        stored = frozenset(fact for fact in self.ready if fact[1] is Word.STORED)
+        self.ready -= stored
+        self._note_perhaps(frozenset((name, Word.STALE) for name, _ in stored))
+
+    def _note_perhaps(self, facts: Facts) -> None:
+        self.ready |= facts
+        if self.effects is not None:
+            self.effects.stored_or_stale += facts
+
+    def is_fresh(self, name: str) -> bool:
+        """Whether the run waits after it has stored ``name``, but on no way to here."""
+        stale = Const(name), Word.STALE
+        is_known = self.effects is not None and stale in self.effects.stored_or_stale
+        return is_known and not self.open_loops and stale not in self.ready
+
+    @contextmanager
+    def left_anywhere(self) -> Iterator[None]:
+        """What is stored inside may have been stored, wherever that was left."""
+        begun = self.stored_by_now()
+        yield
+        self.ready |= self.stored_since(begun)
+
+    def stored_by_now(self) -> int:
+        """How much was noted by now of what the run has stored."""
+        return len(self.effects.stored_or_stale) if self.effects is not None else 0
+
+    def stored_since(self, begun: int) -> Facts:
+        """What may have been stored since, wherever the code there was left."""
+        return frozenset(self.effects.stored_or_stale[begun:]) if self.effects else frozenset()
 
     def begin_outermost_loop(self) -> None:
         """A loop begins that stands in no other one."""
