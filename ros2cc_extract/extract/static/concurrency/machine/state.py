@@ -101,6 +101,16 @@ class ActivityState(Doer):
     left: set[KeptIn] = field(default_factory=set)
     interrupts: bool = False
 
+    @property
+    def process(self) -> ActivityState | None:
+        """The process of its own that it is, or that starts it."""
+        state: object = self
+        while isinstance(state, ActivityState):
+            if state.kind is ActivityKind.PROCESS:
+                return state
+            state = state.starts[0].by if state.starts else None
+        return None
+
 
 @dataclass(eq=False)
 class ThreadState(LibraryState):

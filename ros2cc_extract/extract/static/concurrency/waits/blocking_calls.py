@@ -370,11 +370,7 @@ def is_main(activity: ActivityState | None) -> bool:
 
 def is_in_process(activity: object) -> bool:
     """Whether it is a process of its own, or started in one, and so has a memory of its own."""
-    while isinstance(activity, ActivityState):
-        if activity.kind is ActivityKind.PROCESS:
-            return True
-        activity = activity.starts[0].by if activity.starts else None
-    return False
+    return isinstance(activity, ActivityState) and activity.process is not None
 
 
 def is_of_one_process(thing: Value) -> bool:
