@@ -14,7 +14,6 @@ from ros2cc_extract.cli.main import main
 NODE = """\
 import queue
 import threading
-import time
 import rclpy
 from rclpy.node import Node
 from std_srvs.srv import Trigger
@@ -159,14 +158,6 @@ WAYS: dict[str, tuple[str, str, str, str, str]] = {
         BEAT,
         '',
         OPEN,
-    ),
-    'works by storing': (
-        THREAD,
-        'def work(self):\n    while not self.started:\n        time.sleep(0.1)\n'
-        '        self.ready = True',
-        'while not self.ready:\n    time.sleep(0.1)',
-        '',
-        KEPT,
     ),
     'by names': (
         BY_NAME,

@@ -140,18 +140,8 @@ def call_of_loop(loop: ast.While, call: str, activity: ActivityState | None) -> 
 
     Code that joins the thread waits for its end all the same.
     """
-    is_thread = activity is not None and activity.kind is not ActivityKind.MAIN
-    works = is_thread and (not is_idle(loop) or _stores(loop))
+    works = activity is not None and activity.kind is not ActivityKind.MAIN and not is_idle(loop)
     return WORKING_LOOP if works else call
-
-
-def _stores(loop: ast.While) -> bool:
-    """Whether its rounds give an object or a collection something new."""
-    parts = (part for each in loop.body for part in ast.walk(each))
-    return any(
-        isinstance(part, (ast.Attribute, ast.Subscript)) and isinstance(part.ctx, ast.Store)
-        for part in parts
-    )
 
 
 def spins(loop: ast.While) -> bool:
