@@ -371,11 +371,16 @@ def is_main(activity: ActivityState | None) -> bool:
 
 def is_in_process(activity: object) -> bool:
     """Whether it is a process of its own, or started in one, and so has a memory of its own."""
+    return process_of(activity) is not None
+
+
+def process_of(activity: object) -> ActivityState | None:
+    """The process that it is, or is started in; ``None`` for that of the program itself."""
     while isinstance(activity, ActivityState):
         if activity.kind is ActivityKind.PROCESS:
-            return True
+            return activity
         activity = activity.starts[0].by if activity.starts else None
-    return False
+    return None
 
 
 def is_of_one_process(thing: Value) -> bool:

@@ -17,6 +17,7 @@ from itertools import combinations
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef
+from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import process_of
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     ExecutorState,
@@ -38,6 +39,8 @@ _EVENTS = 'EventsExecutor'
 def are_concurrent(world: RosWorld, first: Spin, second: Spin) -> bool:
     """Whether ``first`` goes on while ``second``, of the same executor, is begun after it."""
     if first.executor is not second.executor or exclusive(first.path, second.path):
+        return False
+    if process_of(first.by) is not process_of(second.by):  # each has an executor of its own
         return False
     if first.thread == second.thread or go_in_turn(world, first.by, second.by):
         return False
@@ -84,7 +87,11 @@ def _comes_again(world: RosWorld, spin: Spin) -> bool:
     by = spin.by
     if not spin.in_thread or by is None or not (spin.for_ever or spin.repeated or _lasts(spin)):
         return False
-    others = [other for other in spin.beside if not go_in_turn(world, by, other)]
+    process = process_of(by)
+    if process is by:
+        return False
+    near = [other for other in spin.beside if process_of(other) is process]
+    others = [other for other in near if not go_in_turn(world, by, other)]
     if any(by.turns is None or by.turns is not other.turns for other in others):
         return True
     if by.count == 1 or by.turns is not None or go_in_turn(world, by, by):
