@@ -130,6 +130,7 @@ class Blocking:
     :param recursive: the loop is a function that calls itself: Python ends it by a RecursionError
         after ``RECURSION_LIMIT`` calls.
     :param times: how often a run waits here, as far as the rounds of loops around it are known.
+    :param or_more: a loop around it has an unknown number of rounds as well.
     :param caught: the exception by which some release says that the time-out is over is caught.
     """
 
@@ -159,6 +160,7 @@ class Blocking:
     repeats: bool = False
     recursive: bool = False
     times: int = 1
+    or_more: bool = False
     caught: bool = False
 
     @property

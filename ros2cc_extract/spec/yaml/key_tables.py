@@ -112,6 +112,7 @@ BLOCKING = record(
                 ('repeats', 'repeats', FLAG),
                 ('recursive', 'recursive', FLAG),
                 ('times', 'times', COUNT),
+                ('or_more', 'or_more', FLAG),
                 ('caught', 'caught', FLAG),
                 ('held', 'held', listing(TEXT)),
                 _SOURCE,

@@ -102,6 +102,20 @@ class ActivityState(Doer):
     interrupts: bool = False
 
 
+def is_in_process(activity: object) -> bool:
+    """Whether it is a process of its own, or started in one, and so has a memory of its own."""
+    return process_of(activity) is not None
+
+
+def process_of(activity: object) -> ActivityState | None:
+    """The process that it is, or is started in; ``None`` for that of the program itself."""
+    while isinstance(activity, ActivityState):
+        if activity.kind is ActivityKind.PROCESS:
+            return activity
+        activity = activity.starts[0].by if activity.starts else None
+    return None
+
+
 @dataclass(eq=False)
 class ThreadState(LibraryState):
     """A ``threading.Thread`` or timer: what it runs when started."""

@@ -15,9 +15,8 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, process_of
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef
-from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import process_of
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
     ExecutorState,

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import process_of
+from ros2cc_extract.extract.static.concurrency.machine.state import process_of
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld, Spin
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import Instance, options_of
