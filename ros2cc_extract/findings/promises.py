@@ -92,7 +92,7 @@ _FAMILIES: dict[Promise, set[str]] = {
 _ON_WAITS = (Promise.DEADLOCK, Promise.WAITS, Promise.STARVATION)
 _ON_ENDS = (Promise.DEADLOCK, Promise.WAITS)
 _OF_SERVING = {'CC107', 'CC406'}
-"""Where the scan finds one of them, it is not known by which spin a node is served from then on."""
+"""Where the scan finds one of them, it is not known which spin serves a node from then on."""
 _ASSUMED_ENDS = {OUTSIDE_WAIT.code: 'is assumed to end', UNDECIDED.code: 'is not decided'}
 
 
