@@ -15,6 +15,7 @@ from ros2cc_extract.findings.answers_of_others import answers_assumed
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.base.wording import called
+from ros2cc_extract.findings.late_values import used_before_main_gives_it
 from ros2cc_extract.findings.races.handed_functions import (
     races_with_others,
     races_with_threads_left,
@@ -195,6 +196,7 @@ class _Unit:
             yield from _copies(self.unit)
             yield from races_with_others(self.unit)
             yield from races_with_threads_left(self.unit)
+            yield from used_before_main_gives_it(self.unit)
         if promise is Promise.SETTINGS:
             yield from self._without_effect()
 

@@ -143,6 +143,7 @@ ACCESS = record(
                 ('bare', 'bare', FLAG),
                 ('clears', 'clears', FLAG),
                 ('lowers', 'lowers', FLAG),
+                ('fills_none', 'fills_none', FLAG),
                 ('found', 'found', optional(TEXT)),
                 ('constant', 'constant', FLAG),
                 ('compared', 'compared', FLAG),

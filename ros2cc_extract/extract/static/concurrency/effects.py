@@ -210,6 +210,7 @@ class Effects(Waits):
             later=self._is_late(name, is_used=is_used or (is_content and is_tested), kind=kind),
             clears=is_stored and reading.stored == NONE,
             lowers=is_stored and reading.stored != NONE and data_kinds.is_false(reading.stored),
+            fills_none=is_stored and reading.fills_none and is_main(self.world.activity),
             found=reading.found_of(name, self.world.path) if is_stored else None,
             constant=is_stored and rests and isinstance(reading.stored, Const),
             joins=joins,
