@@ -15,6 +15,7 @@ from ros2cc_extract.findings.answers_of_others import answers_assumed
 from ros2cc_extract.findings.base.model import Finding
 from ros2cc_extract.findings.base.rule import Context, Doer
 from ros2cc_extract.findings.base.wording import called
+from ros2cc_extract.findings.late_values import used_before_main_gives_it
 from ros2cc_extract.findings.races.handed_functions import (
     races_with_others,
     races_with_threads_left,
@@ -91,6 +92,8 @@ _FAMILIES: dict[Promise, set[str]] = {
 """Claims of the model that have to hold for a promise."""
 _ON_WAITS = (Promise.DEADLOCK, Promise.WAITS, Promise.STARVATION)
 _ON_ENDS = (Promise.DEADLOCK, Promise.WAITS)
+_OF_SERVING = {'CC107', 'CC406'}
+"""Where the scan finds one of them, it is not known which spin serves a node from then on."""
 _ASSUMED_ENDS = {OUTSIDE_WAIT.code: 'is assumed to end', UNDECIDED.code: 'is not decided'}
 
 
@@ -181,6 +184,8 @@ class _Unit:
         for finding in own:
             if finding.code in _CODES[promise]:
                 yield f'{finding.code} at {_at(finding)}'
+        if promise in _ON_WAITS:
+            yield from self._lost_service()
         yield from self._verdicts(promise)
         if promise in _ON_WAITS:
             yield from self._open_waits(promise)
@@ -191,6 +196,7 @@ class _Unit:
             yield from _copies(self.unit)
             yield from races_with_others(self.unit)
             yield from races_with_threads_left(self.unit)
+            yield from used_before_main_gives_it(self.unit)
         if promise is Promise.SETTINGS:
             yield from self._without_effect()
 
@@ -210,6 +216,13 @@ class _Unit:
         for finding in (*self.own, *self.near):
             if finding.code == 'CC500':
                 yield f'{finding.message} ({_at(finding)})'
+
+    def _lost_service(self) -> Iterator[str]:
+        """What lets a spin go on without its nodes, or end, as no model of a unit has it."""
+        for finding in (*self.own, *self.near):
+            is_told = finding.unit is None and finding.severity is not Severity.NOTE
+            if is_told and finding.code in _OF_SERVING:
+                yield f'after {finding.code} at {_at(finding)} a spin may serve the node no more'
 
     def _verdicts(self, promise: Promise) -> Iterator[str]:
         for result in self._results(promise):

@@ -130,6 +130,7 @@ class Blocking:
     :param recursive: the loop is a function that calls itself: Python ends it by a RecursionError
         after ``RECURSION_LIMIT`` calls.
     :param times: how often a run waits here, as far as the rounds of loops around it are known.
+    :param or_more: a loop around it has an unknown number of rounds as well.
     :param caught: the exception by which some release says that the time-out is over is caught.
     """
 
@@ -159,6 +160,7 @@ class Blocking:
     repeats: bool = False
     recursive: bool = False
     times: int = 1
+    or_more: bool = False
     caught: bool = False
 
     @property
@@ -234,6 +236,7 @@ class Access:
         test, and for the use of an object that was tested before.
     :param bare: true for the use of an object that each run comes to without any test before.
     :param clears: true where ``None`` is stored; ``lowers`` for another constant that is false.
+    :param fills_none: true for a write by ``main``, where ``None`` was until then.
     :param found: of a write that rests on tests alone, what these have found: ``FOUND_NONE``, or
         ``FOUND_FALSE`` where anything false would do, and ``FOUND_TRUE``; a constant behind
         ``FOUND_THIS``, or behind
@@ -268,6 +271,7 @@ class Access:
     bare: bool = False
     clears: bool = False
     lowers: bool = False
+    fills_none: bool = False
     found: str | None = None
     constant: bool = False
     compared: bool = False

@@ -74,6 +74,18 @@ def test_a_finding_breaks_what_its_rule_is_about(code: str, broken: set[str]) ->
     assert marks(replace(FINDING, code=code)) == dict.fromkeys(broken, 'BROKEN')
 
 
+@pytest.mark.parametrize('code', ['CC107', 'CC406'])
+def test_who_serves_a_node_that_two_spins_have_is_open(code: str) -> None:
+    told = replace(FINDING, code=code, severity=Severity.WARNING)
+    broken = {'CC107': {'RACES'}, 'CC406': {'STARVATION', 'SETTINGS'}}[code]
+    waits = dict.fromkeys(('DEADLOCK', 'WAITS', 'STARVATION'), 'OPEN')
+    assert marks(told) == waits | dict.fromkeys(broken, 'BROKEN')
+    # One by a unit is about a spin inside a callback, which the model has.
+    assert marks(replace(told, unit='arm')) == dict.fromkeys(broken, 'BROKEN')
+    near = marks(near=(told,))
+    assert {name: near[name] for name in waits} == waits
+
+
 def test_a_note_decides_nothing_but_that_a_setting_has_no_effect() -> None:
     assert marks(replace(FINDING, code='CC301', severity=Severity.NOTE)) == {'RACES': 'OPEN'}
     assert marks(replace(FINDING, code='CC403', severity=Severity.NOTE)) == {'SETTINGS': 'BROKEN'}

@@ -195,3 +195,64 @@ def test_a_sleep_of_unknown_length_leaves_it_open(tmp_path: Path, seconds: str) 
 )
 def test_numbers_with_which_nobody_counts_say_nothing(tmp_path: Path, body: str) -> None:
     assert told(tmp_path, 'pass', body, ONE) == []
+
+
+ROUNDS = """\
+import time
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Benchmark(Node):
+    def __init__(self):
+        super().__init__('benchmark')
+        self.create_subscription(String, 'image', self.on_image, 10)
+        self.create_timer(500.0, self.start)
+
+    def on_image(self, msg):
+        self.get_logger().info(msg.data)
+
+    def start(self):
+        for width in [320, 480, 640, 800]:
+            self.run(width)
+
+    def run(self, width):
+        begun = self.begun = time.time()
+{body}
+
+
+rclpy.init()
+rclpy.spin(Benchmark())
+"""
+BY_TIME = 'while time.time() - begun < 60.0:\n    '
+OPEN = 'while self.get_parameter("on").value:\n    '
+
+
+@pytest.mark.parametrize(
+    ('body', 'words'),
+    [
+        ('time.sleep(1.5)', 'sleeps 1.5 s 4 times (6 s in all) and'),
+        (BY_TIME + 'time.sleep(1.5)', 'sleeps 1.5 s 160 times (240 s in all) and'),
+        (BY_TIME + 'pass', 'asks a clock in a loop for 60 s 4 times (240 s in all) and'),
+        (
+            'for k in (1, 2):\n    i = 0\n'
+            '    while i < 5:\n        i += 1\n        time.sleep(0.5)',
+            'sleeps 0.5 s 40 times (20 s in all) and',
+        ),
+        (OPEN + 'time.sleep(1.5)', 'sleeps 1.5 s 4 times or more (at least 6 s in all) and'),
+        (OPEN + 'if width > self.least:\n        time.sleep(1.5)', 'sleeps 1.5 s again and again'),
+        (
+            'while time.time() - self.begun < 60.0:\n'
+            '    if self.get_clock().now().nanoseconds % 2:\n        time.sleep(1.5)',
+            'sleeps 1.5 s again and again and',
+        ),
+    ],
+)
+def test_a_loop_in_each_round_of_another(body: str, words: str, tmp_path: Path) -> None:
+    path = tmp_path / 'benchmark.py'
+    path.write_text(ROUNDS.format(body=indent(body, ' ' * 8)), encoding='utf-8')
+    out = StringIO()
+    main(['check', '--no-cache', '--output-format', 'json', str(path)], out, StringIO())
+    told = [f['message'] for f in json.loads(out.getvalue())['findings'] if f['code'] == 'CC201']
+    assert [each.startswith(f'Benchmark.start {words}') for each in told] == [True], told

@@ -173,11 +173,10 @@ class Effects(Waits):
         if effects is None:
             return
         is_read, reading = kind is AccessKind.READ, self.world.reading
-        is_stored = kind is AccessKind.WRITE
+        is_stored, is_content = kind is AccessKind.WRITE, kind is AccessKind.UPDATE_IN_PLACE
         if is_read:
             reading.note_read(name)
         at = place, attribute or name.rpartition('.')[2]
-        is_content = kind is AccessKind.UPDATE_IN_PLACE
         flows = name in reading.flowing
         is_computed = flows or name in reading.choices.get(at, ())
         is_computed = is_computed or not self.world.given_from.isdisjoint((name, ITSELF))
@@ -211,6 +210,7 @@ class Effects(Waits):
             later=self._is_late(name, is_used=is_used or (is_content and is_tested), kind=kind),
             clears=is_stored and reading.stored == NONE,
             lowers=is_stored and reading.stored != NONE and data_kinds.is_false(reading.stored),
+            fills_none=is_stored and reading.fills_none and is_main(self.world.activity),
             found=reading.found_of(name, self.world.path) if is_stored else None,
             constant=is_stored and rests and isinstance(reading.stored, Const),
             joins=joins,

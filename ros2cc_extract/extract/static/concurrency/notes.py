@@ -193,7 +193,7 @@ class Notes(Effects):
         assert isinstance(begun, polling_loops.Mark)
         polling_loops.note(self, node, frame, begun)
         if begun.length is not None:
-            timed_loops.note(self, node, frame, begun.length, begun.waits)
+            timed_loops.note(self, node, frame, begun.length, begun.waits, begun.met)
         if is_recursion(node):
             polling_loops.mark_recursive(self, node, frame, begun)
 

@@ -275,7 +275,10 @@ def _how_long(wait: AnyWait) -> str:
     assert isinstance(seconds, (int, float))
     most = ' up to' if wait.block.conditional else ''
     often = ''
-    if wait.block.times > 1:
+    if wait.block.or_more and wait.block.times > 1:
+        more = f' {wait.block.times} times or more (at least {seconds_of(wait):g} s in all)'
+        often = ' again and again' if most else more
+    elif wait.block.times > 1:
         often = f'{most} {wait.block.times} times ({seconds_of(wait):g} s in all)'
     if wait.block.call == BUSY_LOOP:
         return f'asks a clock in a loop for{most} {seconds:g} s{often}'

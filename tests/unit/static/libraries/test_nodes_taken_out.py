@@ -112,3 +112,50 @@ def test_a_node_that_a_thread_takes_out_which_began_before(
     found = scan_text(ROBBER.format(spins=spins, first=first)).diagnostics
     mine = [each for each in found if each.slug == 'node-taken-out']
     assert [each.place.line for each in mine] == lines
+
+
+ENDED = """
+import threading
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+class Arm(Node):
+    def __init__(self):
+        super().__init__('arm')
+        self.client = self.create_client(Trigger, 'stop')
+        self.create_timer(1.0, lambda: None)
+
+    def destroy_node(self):
+        future = self.client.call_async(Trigger.Request())
+        rclpy.spin_until_future_complete(self, future, timeout_sec=1.0)
+        super().destroy_node()
+
+def main():
+    rclpy.init()
+    arm = Arm()
+    executor = SingleThreadedExecutor()
+    executor.add_node(arm)
+    {rest}
+    arm.destroy_node()
+
+main()
+"""
+THREAD = 'spinner = threading.Thread(target=executor.spin); spinner.start(); input(); '
+
+
+@pytest.mark.parametrize(
+    ('rest', 'lines'),
+    [
+        ('executor.spin()', []),
+        ('try:\n        executor.spin()\n    except KeyboardInterrupt:\n        pass', []),
+        (THREAD + 'executor.shutdown(); spinner.join()', []),
+        (THREAD, [16]),
+        ('executor.spin_once(); arm.destroy_node(); executor.spin()', [16]),
+    ],
+)
+def test_a_node_that_is_taken_out_when_its_spin_is_over(rest: str, lines: list[int]) -> None:
+    found = scan_text(ENDED.format(rest=rest)).diagnostics
+    mine = {each.place.line for each in found if each.slug == 'node-taken-out'}
+    assert sorted(mine) == lines

@@ -101,15 +101,19 @@ class ActivityState(Doer):
     left: set[KeptIn] = field(default_factory=set)
     interrupts: bool = False
 
-    @property
-    def process(self) -> ActivityState | None:
-        """The process of its own that it is, or that starts it."""
-        state: object = self
-        while isinstance(state, ActivityState):
-            if state.kind is ActivityKind.PROCESS:
-                return state
-            state = state.starts[0].by if state.starts else None
-        return None
+
+def is_in_process(activity: object) -> bool:
+    """Whether it is a process of its own, or started in one, and so has a memory of its own."""
+    return process_of(activity) is not None
+
+
+def process_of(activity: object) -> ActivityState | None:
+    """The process that it is, or is started in; ``None`` for that of the program itself."""
+    while isinstance(activity, ActivityState):
+        if activity.kind is ActivityKind.PROCESS:
+            return activity
+        activity = activity.starts[0].by if activity.starts else None
+    return None
 
 
 @dataclass(eq=False)

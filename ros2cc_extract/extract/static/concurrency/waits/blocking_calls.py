@@ -8,7 +8,11 @@ from dataclasses import replace
 from ros2cc_extract.extract.static.concurrency.accesses import lost_notifications
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import held_over
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
-from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, ConcurrentWorld
+from ros2cc_extract.extract.static.concurrency.machine.state import (
+    ActivityState,
+    ConcurrentWorld,
+    is_in_process,
+)
 from ros2cc_extract.extract.static.concurrency.machine.wait_table import (
     NO_ROW,
     SPIN_UNTIL,
@@ -28,6 +32,7 @@ from ros2cc_extract.extract.static.concurrency.waits import (
     outside_waits,
     values_during_waits,
 )
+from ros2cc_extract.extract.static.concurrency.waits.rounds import note_round
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import waking_of
 from ros2cc_extract.extract.static.concurrency.waits.unknown_waits import (
     timeout_of,
@@ -113,7 +118,8 @@ class Waits(ConcurrentMachine):
         if world.open_loops:
             effects.looped.add(way_of(block))
         sure = tuple(number for number in world.round if number > 0)
-        _note_round(effects, block, world.round if name in PAUSES else sure)
+        current = world.round if name in PAUSES else sure
+        note_round(effects, block, current, is_open=world.open_loops > 0)
 
     def _block(
         self, name: str, on: Value | None, seconds: Value | None, place: Place
@@ -138,6 +144,7 @@ class Waits(ConcurrentMachine):
             only_if=only_if(world),
             repeats=_is_in_a_loop_of_a_hold(world),
             times=world.times,
+            or_more=world.times > 1 and world.open_loops > 0,
             caught=seconds is not None and _is_caught(row.raises, world),
         )
         return block, thing
@@ -176,6 +183,7 @@ class Waits(ConcurrentMachine):
         world.note_waited(way_of(block))
         if block not in effects.blocking[-RECENT:]:
             effects.blocking.append(block)
+        effects.met.append((len(effects.blocking) - 1, 0))
 
     def note_unknown_call(self, function: Mystery, call: Call) -> None:
         """Something that could not be followed is called, perhaps by the name of a wait."""
@@ -368,11 +376,6 @@ def is_main(activity: ActivityState | None) -> bool:
     return activity is not None and activity.kind is ActivityKind.MAIN
 
 
-def is_in_process(activity: object) -> bool:
-    """Whether it is a process of its own, or started in one, and so has a memory of its own."""
-    return isinstance(activity, ActivityState) and activity.process is not None
-
-
 def is_of_one_process(thing: Value) -> bool:
     """An event, a lock, a queue … that each process has one of its own of."""
     if not isinstance(thing, Instance) or not isinstance(thing.state, PlainState):
@@ -442,31 +445,6 @@ def _with_item(waking: Waking, item: Value | None) -> Waking:
         return waking
     options = dict.fromkeys((*options_of(waking.item), *options_of(item)))
     return replace(waking, item=choice(list(options)))
-
-
-def _note_round(effects: EffectLog, block: Blocking, current: tuple[int, ...]) -> None:
-    """A wait that is met again in another round of a loop is waited once more."""
-    number = len(effects.blocking)
-    for known in range(number - 1, max(0, number - RECENT) - 1, -1):
-        other = effects.blocking[known]
-        if _is_same_wait(block, replace(other, times=block.times)):
-            rounds = effects.rounds.setdefault(known, set())
-            rounds.add(current)
-            effects.blocking[known] = replace(other, times=len(rounds) * block.times)
-            return
-    effects.rounds[number] = {current}
-    effects.blocking.append(block)
-
-
-def _is_same_wait(one: Blocking, other: Blocking) -> bool:
-    """References to two objects are equal as texts."""
-    if one != other:
-        return False
-    for here, there in ((one.on, other.on), (one.resource, other.resource)):
-        are_references = isinstance(here, EntityRef) and isinstance(there, EntityRef)
-        if are_references and here.number != there.number:  # type: ignore[union-attr]
-            return False
-    return True
 
 
 def _is_caught(raised: type[Exception] | None, world: ConcurrentWorld) -> bool:

@@ -46,7 +46,7 @@ class Assignments(Machine):
 
     def assign(self, target: ast.expr, value: Value, frame: Frame) -> None:
         """Store ``value`` in a name, attribute, item or pattern of them."""
-        self.world.reading.stored = value
+        self.world.reading.stored, self.world.reading.replaced = value, None
         if frame.narrowed:
             narrowed_types.forget(self, target, frame)
         if isinstance(target, ast.Name):
@@ -113,6 +113,7 @@ class Assignments(Machine):
         self, owner: Value, name: str, value: Value, place: Place, *, is_sure: bool
     ) -> None:
         old = getattr(owner, 'slots', {}).get(name)
+        self.world.reading.replaced = old
         if old is not None:
             self.note_attribute(owner, name, AccessKind.WRITE, place)
             self.note_replaced(owner, name, old)

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from dataclasses import field
 
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
-from ros2cc_extract.extract.static.python.values.values import Path, Value
+from ros2cc_extract.extract.static.python.values.values import NONE, Path, Value
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 
@@ -55,7 +55,7 @@ class Reading:
     :param choices: the shared data because of which it is that item, in the same way.
     :param used: objects that are asked for more than being there, in the same way.
     :param compared: what is only asked for whether it is still what the function knows.
-    :param stored: the value that is being stored.
+    :param stored: the value that is being stored; ``replaced`` the one of an attribute before.
     :param is_whole: what is stored now is read and stored in one piece, see ``atomic_updates.py``.
     :param taken_from: arguments of the function that what is stored now was taken from.
     :param named: what the source names in that value.
@@ -82,6 +82,7 @@ class Reading:
     compared: set[tuple[Place, str]] = field(default_factory=set)
     refusing: set[str] = field(default_factory=set)
     stored: Value | None = None
+    replaced: Value | None = None
     is_whole: bool = False
     taken_from: frozenset[str] = frozenset()
     named: frozenset[str] = frozenset()
@@ -137,6 +138,11 @@ class Reading:
     def leads_to(self, name: str, path: Path) -> bool:
         """The same, or a loop goes on because of it."""
         return self.governs(name, path) or any(name in asked.names for asked in self.loops)
+
+    @property
+    def fills_none(self) -> bool:
+        """Whether an attribute that was None for sure gets something else."""
+        return self.replaced == NONE and self.stored != NONE
 
     def found_of(self, name: str, path: Path) -> str | None:
         """What tests of ``name`` have found, where nothing else of it matters any more."""

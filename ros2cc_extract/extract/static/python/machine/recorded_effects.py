@@ -75,6 +75,7 @@ class EffectLog:
     :param stored: names of what is written in a hold of a lock, see ``lost_notifications.py``.
     :param unread: of waits for a child process, where it is made and which pipe of it is not read
         before, see ``child_pipes.py``.
+    :param met: waits as they are met, by their number, and how often the round waits there.
     :param loops: how many loops of several rounds, known ones, are followed now.
     :param order: messages, clears of events and waits for events, see ``cleared_events.py``.
     :param woken: of what others may wait on, by its identity, how many waits came before its wait
@@ -98,6 +99,7 @@ class EffectLog:
     publishes: list[Act] = field(default_factory=list)
     changes: list[Act] = field(default_factory=list)
     rounds: dict[int, set[tuple[int, ...]]] = field(default_factory=dict)
+    met: list[tuple[int, int]] = field(default_factory=list)
     loops: int = 0
     own: list[str] = field(default_factory=list)
     behind: object = None

@@ -9,7 +9,7 @@ from dataclasses import field, replace
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
 from ros2cc_extract.extract.static.concurrency.machine.counters import MOST, Rise
 from ros2cc_extract.extract.static.concurrency.machine.loop_formulas import UNKNOWN
-from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, is_in_process
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     DataRef,
     MessageRef,
@@ -17,7 +17,6 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     TopicRef,
     Waking,
 )
-from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import is_in_process
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import come_behind
 from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
     data_is_written_elsewhere,

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
-from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
+from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, process_of
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import ResourceRef
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
     EntityState,
@@ -30,7 +30,7 @@ from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusiv
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value, options_of
 from ros2cc_extract.extract.static.units.whole_program.threads_in_turn import go_in_turn
 from ros2cc_extract.source_locations import Place, Unknown
-from ros2cc_extract.spec.model import ActivityKind, GroupType
+from ros2cc_extract.spec.model import GroupType
 
 _EVENTS = 'EventsExecutor'
 
@@ -39,8 +39,8 @@ def are_concurrent(world: RosWorld, first: Spin, second: Spin) -> bool:
     """Whether ``first`` goes on while ``second``, of the same executor, is begun after it."""
     if first.executor is not second.executor or exclusive(first.path, second.path):
         return False
-    if _process_of(first) is not _process_of(second):
-        return False  # each process has an executor of its own
+    if process_of(first.by) is not process_of(second.by):  # each has an executor of its own
+        return False
     if first.thread == second.thread or go_in_turn(world, first.by, second.by):
         return False
     # A text without a known caller is followed by itself, and where a thread runs it.
@@ -54,10 +54,6 @@ def are_concurrent(world: RosWorld, first: Spin, second: Spin) -> bool:
     if first.for_ever or first.repeated or (second.thread == 0 and second.for_ever):
         return True
     return _lasts(first) and _lasts(second)
-
-
-def _process_of(spin: Spin) -> ActivityState | None:
-    return spin.by.process if spin.by is not None else None
 
 
 def _lasts(spin: Spin) -> bool:
@@ -90,12 +86,13 @@ def _comes_again(world: RosWorld, spin: Spin) -> bool:
     by = spin.by
     if not spin.in_thread or by is None or not (spin.for_ever or spin.repeated or _lasts(spin)):
         return False
-    beside = [other for other in spin.beside if other.process is by.process]
-    others = [other for other in beside if not go_in_turn(world, by, other)]
+    process = process_of(by)
+    if process is by:
+        return False
+    near = [other for other in spin.beside if process_of(other) is process]
+    others = [other for other in near if not go_in_turn(world, by, other)]
     if any(by.turns is None or by.turns is not other.turns for other in others):
         return True
-    if by.kind is ActivityKind.PROCESS:
-        return False
     if by.count == 1 or by.turns is not None or go_in_turn(world, by, by):
         return False
     return by.overlaps or (isinstance(by.count, Unknown) and not _is_joined(world, by))

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
+from ros2cc_extract.extract.static.concurrency.machine.state import process_of
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import RosWorld, Spin
 from ros2cc_extract.extract.static.python.values.exclusive_paths import exclusive
 from ros2cc_extract.extract.static.python.values.values import Instance, options_of
@@ -42,8 +43,8 @@ def _is_beside(spin: Spin, number: int, other: Spin) -> bool:
     """Whether ``other`` is begun later, of another executor, while the thread may still spin."""
     is_other = other.executor is not spin.executor and other.thread != spin.thread
     goes_on = other.for_ever or other.repeated
-    is_over = number < other.over
-    return is_other and goes_on and not is_over and not exclusive(spin.path, other.path)
+    is_apart = number < other.over or process_of(spin.by) is not process_of(other.by)
+    return is_other and goes_on and not is_apart and not exclusive(spin.path, other.path)
 
 
 def _robbed(spin: Spin, other: Spin) -> Iterator[bool]:

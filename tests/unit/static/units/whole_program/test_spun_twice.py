@@ -52,6 +52,65 @@ def test_one_text_that_two_threads_run_for_two_nodes(rest: str, lines: list[int]
     assert [each.place.line for each in found if each.slug == 'executor-spun-twice'] == lines
 
 
+PROCESSES = """
+import multiprocessing
+import threading
+import rclpy
+
+def serve(name):
+    rclpy.init()
+    rclpy.spin(rclpy.create_node(name))
+
+def serve_step_by_step(name):
+    rclpy.init()
+    node = rclpy.create_node(name)
+    while rclpy.ok():
+        rclpy.spin_once(node, timeout_sec=0.2)
+
+def serve_two(name):
+    rclpy.init()
+    one, other = rclpy.create_node(name), rclpy.create_node('other')
+    threading.Thread(target=rclpy.spin, args=(one,)).start()
+    rclpy.spin(other)
+
+def main():
+    {rest}
+"""
+APART = """\
+one = {each}(target={name}, args=('a',))
+other = {each}(target={name}, args=('b',))
+one.start()
+other.start()
+"""
+IN_A_LOOP = "for name in 'ab':\n    {each}(target={name}, args=(name,)).start()\n"
+LISTED = """\
+context = multiprocessing.get_context('spawn')
+all_of_them = [context.Process(target={name}, args=(name,)) for name in 'ab']
+for each in all_of_them:
+    each.start()
+"""
+PROCESS, OTHER_THREAD = 'multiprocessing.Process', 'threading.Thread'
+
+
+@pytest.mark.parametrize(
+    ('rest', 'lines'),
+    [
+        (APART.format(each=PROCESS, name='serve'), []),
+        (APART.format(each=OTHER_THREAD, name='serve'), [8]),
+        (IN_A_LOOP.format(each=PROCESS, name='serve_step_by_step'), []),
+        (IN_A_LOOP.format(each=OTHER_THREAD, name='serve_step_by_step'), [14]),
+        (LISTED.format(name='serve_step_by_step'), []),
+        (LISTED.format(name='serve'), []),
+        (IN_A_LOOP.format(each=PROCESS, name='serve') + "serve('c')", []),
+        # A process may have two threads as well.
+        (f"{PROCESS}(target=serve_two, args=('a',)).start()", [20]),
+    ],
+)
+def test_each_process_has_an_executor_of_its_own(rest: str, lines: list[int]) -> None:
+    found = scan_text(PROCESSES.format(rest=indent(rest, '    ').lstrip())).diagnostics
+    assert [each.place.line for each in found if each.slug == 'executor-spun-twice'] == lines
+
+
 IN_CALLBACK = """
 import threading
 import rclpy

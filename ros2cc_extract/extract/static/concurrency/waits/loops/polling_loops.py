@@ -99,6 +99,7 @@ class Mark:
     writes: int
     own: int
     order: int
+    met: int
     length: timed_loops.Length | None = None
 
 
@@ -108,7 +109,7 @@ def mark(machine: ConcurrentMachine, length: timed_loops.Length | None = None) -
     if effects is None:
         return None
     waits, writes, own = len(effects.blocking), len(effects.writes), len(effects.own)
-    return Mark(waits, writes, own, len(effects.order), length)
+    return Mark(waits, writes, own, len(effects.order), len(effects.met), length)
 
 
 def begin(

@@ -65,12 +65,18 @@ def length_of(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Leng
 
 
 def note(
-    machine: ConcurrentMachine, loop: ast.While, frame: Frame, length: Length, first: int
+    machine: ConcurrentMachine,
+    loop: ast.While,
+    frame: Frame,
+    length: Length,
+    first: int,
+    first_met: int,
 ) -> None:
     """
     After one round: it sleeps in each of them, or is busy all the time.
 
-    :param first: where the waits of the round begin.
+    :param first: where the waits of the round begin that were not met before.
+    :param first_met: where all of them begin, as they were met.
     """
     effects = machine.world.effects or EffectLog()
     inside, place = effects.blocking[first:], frame.place(loop)
@@ -81,18 +87,34 @@ def note(
             if block.call == POLLING_LOOP and block.source in tests and ends_otherwise:
                 effects.blocking[number] = replace(block, seconds=length.seconds)
         return  # it waits for data as a whole
-    pauses = [block for block in inside if block.call in PAUSES and not block.suspends]
-    slept = sum(b.seconds * b.times for b in pauses if isinstance(b.seconds, (int, float)))
+    pauses = _pauses(effects, first_met)
+    slept = sum(
+        block.seconds * often
+        for block, often in ((effects.blocking[number], often) for number, often in pauses)
+        if isinstance(block.seconds, (int, float))
+    )
     rounds = length.rounds
     if length.seconds is not None and slept > 0:
         rounds = ceil(min(_MOST_ROUNDS, length.seconds / slept))
     if rounds is not None and slept > 0:
-        effects.blocking[first:] = [
-            replace(block, times=block.times * max(1, rounds)) if block in pauses else block
-            for block in inside
-        ]
-    elif length.seconds is not None and not inside:
+        effects.met[first_met:] = [(number, often * max(1, rounds)) for number, often in pauses]
+        for number, often in pauses:
+            block = effects.blocking[number]
+            times = block.times + often * (max(1, rounds) - 1)
+            or_more = times > 1 and machine.world.open_loops > 0
+            effects.blocking[number] = replace(block, times=times, or_more=or_more)
+    elif length.seconds is not None and not inside and len(effects.met) == first_met:
         machine.note_blocking(BUSY_LOOP, None, Const(length.seconds), place)
+
+
+def _pauses(effects: EffectLog, first_met: int) -> list[tuple[int, int]]:
+    """The sleeps of a round, by their number, and how often it sleeps there."""
+    often: dict[int, int] = {}
+    for number, times in effects.met[first_met:]:
+        block = effects.blocking[number] if number < len(effects.blocking) else None
+        if block is not None and block.call in PAUSES and not block.suspends:
+            often[number] = often.get(number, 0) + times
+    return list(often.items())
 
 
 def _whole(loop: ast.While) -> tuple[ast.AST, ...]:

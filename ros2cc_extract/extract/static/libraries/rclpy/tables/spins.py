@@ -155,6 +155,8 @@ def _warn_of_theft(
             continue
         if machine.world.when is When.LATER and not _is_spun_then(machine, other):
             continue
+        if other.state.spun and _is_spun_no_more(machine, other):
+            continue
         if other.state.kind == LOOP_KIND:
             machine.world.diagnostics.append(_refused(how, place))
             continue
@@ -203,6 +205,17 @@ def _is_spun_then(machine: RosMachine, executor: Instance) -> bool:
     is_whole = not ends or ends[0] is None
     name = machine.stack[0].name if machine.stack else ''
     return goes_on and is_whole and world.is_program and is_handed_on(world, name)
+
+
+def _is_spun_no_more(machine: RosMachine, executor: Instance) -> bool:
+    """Whether the set-up takes the node out when each spin of ``executor`` is over."""
+    world = machine.world
+    over = (
+        number < world.spins_over or (spin.thread == 0 and spin.for_ever and not spin.repeated)
+        for number, spin in enumerate(world.spins.values())
+        if spin.executor is executor
+    )
+    return world.when is When.START and world.thread == 0 and all(over)
 
 
 def _afterwards(executor: Instance, how: str) -> str:
