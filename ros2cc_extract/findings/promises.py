@@ -353,7 +353,11 @@ def about(
             elif finding.unit is not None and _leads_to(finding, unit):
                 near.append(finding)
         elif finding.unit == unit.name:
-            own.append(finding)
+            # Many programs name their node alike: the file tells them apart.
+            alike = [each for each in units if each.name == unit.name]
+            holding = [each for each in alike if finding.place.file in each.sources]
+            if not holding or any(each is unit for each in holding):
+                own.append(finding)
         elif unit.entry is not None and named.entry == unit.entry and _names(finding, unit, named):
             near.append(finding)
     return own, near

@@ -312,3 +312,14 @@ def test_threads_have_an_effect_where_one_callback_overlaps_itself(
     judged = judge(unit, verify_unit(close(unit), Options(profile=Profile.RCLPY)), ())
     marked = {each.promise: each.mark.name for each in judged}
     assert marked[Promise.SETTINGS] == settings
+
+
+def test_of_units_with_one_name_a_finding_is_about_that_of_its_file() -> None:
+    one, other = (
+        replace(scan_text(NODE).units[0], sources=(name,)) for name in ('one.py', 'other.py')
+    )
+    finding = replace(FINDING, unit=one.name, place=Place('one.py', 3, 1))
+    assert about([finding], one, [one, other]) == ([finding], [])
+    assert about([finding], other, [one, other]) == ([], [])
+    elsewhere = replace(finding, place=Place('helper.py', 3, 1))
+    assert about([elsewhere], other, [one, other]) == ([elsewhere], [])
