@@ -188,17 +188,45 @@ def _reassigned_attributes(cls: ast.ClassDef) -> Mapping[str, Sequence[ast.expr 
     return found
 
 
-def cleared_attributes(cls: ast.ClassDef) -> frozenset[str]:
-    """Those of them that are set to ``None``."""
-    return noted_on(cls, 'cleared_attributes', _cleared_attributes)
+def replaced_attributes(cls: ast.ClassDef) -> frozenset[str]:
+    """Those that more than the set-up assigns; what only the set-up calls is of it."""
+    return noted_on(cls, 'replaced_attributes', _replaced_attributes)
 
 
-def _cleared_attributes(cls: ast.ClassDef) -> frozenset[str]:
+def _replaced_attributes(cls: ast.ClassDef) -> frozenset[str]:
+    texts = {
+        method.name: list(walk(method))
+        for method in cls.body
+        if isinstance(method, (ast.FunctionDef, ast.AsyncFunctionDef))
+    }
     return frozenset(
-        name
-        for name, values in reassigned_attributes(cls).items()
-        if any(isinstance(each, ast.Constant) and each.value is None for each in values)
+        mangled(part.attr, cls.name)
+        for name in texts.keys() - _methods_of_set_up(texts)
+        for part in texts[name]
+        if isinstance(part, ast.Attribute) and part.ctx.__class__ is ast.Store
     )
+
+
+def _methods_of_set_up(texts: Mapping[str, Sequence[ast.AST]]) -> set[str]:
+    """The methods that the set-up of a class calls and no other method names."""
+    called = {name: _called(parts) for name, parts in texts.items()}
+    named = {
+        name: {part.attr for part in parts if isinstance(part, ast.Attribute)}
+        for name, parts in texts.items()
+    }
+    found = set(_OF_SET_UP)
+    while True:
+        by_set_up = {name for each in found for name in called.get(each, ())}
+        by_others = {name for each in texts.keys() - found for name in named[each]}
+        more = by_set_up & texts.keys() - by_others - found
+        if not more:
+            return found
+        found |= more
+
+
+def _called(parts: Sequence[ast.AST]) -> set[str]:
+    functions = (part.func for part in parts if isinstance(part, ast.Call))
+    return {each.attr for each in functions if isinstance(each, ast.Attribute)}
 
 
 def is_test(name: str) -> bool:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.program.text_queries import (
-    cleared_attributes,
     reassigned_attributes,
+    replaced_attributes,
 )
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.world import AccessKind, World
@@ -52,10 +52,10 @@ def is_assigned(cls: Value | None, name: str) -> bool:
     return any(name in reassigned_attributes(base.node) for base in _classes(cls))
 
 
-def is_taken_away(owner: Value, name: str) -> bool:
-    """Whether a method stores ``None`` where an entity, a lock or a function may be."""
+def is_replaced(owner: Value, name: str) -> bool:
+    """Whether a method puts something else where an entity, a lock or a function may be."""
     cls = owner.cls if isinstance(owner, Instance) else owner
-    return any(name in cleared_attributes(base.node) for base in _classes(cls))
+    return any(name in replaced_attributes(base.node) for base in _classes(cls))
 
 
 def _classes(cls: Value | None) -> Iterator[Class]:
