@@ -70,7 +70,10 @@ if __name__ == '__main__':
 #       ended by land conditional @43
 #     blocks await on unlock through door @30
 #       ended by unlock conditional @39
+#     reads Stair.step @21
+#     reads Stair.step @23
 #     writes Stair.step @20
+#     writes Stair.step @22
 #     writes Stair.landings update in_place @25
 #     writes Stair.landings @27
 #     writes Stair.doors update in_place @29

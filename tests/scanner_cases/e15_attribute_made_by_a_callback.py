@@ -41,6 +41,7 @@ if __name__ == '__main__':
 #     reads A.last @17
 #   subscription on_x in a_default key=x
 #     writes A.last @20
+#     writes A.extra @21
 #     changes timer @21
 #   subscription on_y in a_default key=y
 #     writes A.last clears @24

@@ -40,6 +40,8 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer start in a_default every 5 one_shot
+#     writes A.lock @25
+#     writes A.cli @26
 #     changes client @26
 #   subscription on_go in a_default key=go
 #     blocks client.call on other_client @18

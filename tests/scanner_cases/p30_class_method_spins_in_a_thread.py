@@ -38,3 +38,5 @@ class TestProbe:
 #   group probe_default EXCLUSIVE default
 #   timer tick in probe_default every 1 when=later
 #   activity thread serve (TestProbe.serve) conditional daemon loops
+#     reads TestProbe.over @32
+#     reads TestProbe.serving @33

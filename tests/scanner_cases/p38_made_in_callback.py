@@ -30,6 +30,8 @@ if __name__ == '__main__':
 # unit a: SingleThreadedExecutor x1 rclpy.spin, main
 #   group a_default EXCLUSIVE default
 #   timer once in a_default every 1 conditional one_shot count=? when=callback
+#     reads A.t @18
 #   subscription on_cmd in a_default key=cmd
+#     writes A.t @15
 #     changes timer @15
 #   ? once count

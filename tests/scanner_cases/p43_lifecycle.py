@@ -40,5 +40,7 @@ if __name__ == '__main__':
 #   timer tick in a_default every 1
 #   subscription on_in in a_default key=in when=configure
 #   lifecycle_service on_configure in a_default
+#     writes A.sub @15
 #     changes subscription @15
 #   lifecycle_service on_cleanup in a_default
+#     reads A.sub @19

@@ -40,6 +40,13 @@ if __name__ == '__main__':
 #   subscription l_two in a_default (A.two) key=l destroyed when=configure library=message_filters
 #   subscription r_two in a_default (A.two) key=r when=configure library=message_filters
 #   lifecycle_service on_activate in a_default
+#     reads A.left @17
+#     reads A.right @17
+#     reads A.pairs @18
+#     writes A.left @15
+#     writes A.right @16
+#     writes A.pairs @17
 #     changes subscription @15
 #     changes subscription @16
 #   lifecycle_service on_deactivate in a_default
+#     reads A.left @22

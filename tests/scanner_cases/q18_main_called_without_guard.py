@@ -44,3 +44,6 @@ main()
 # unit a: MultiThreadedExecutor x4 spin in thread, __main__
 #   group a_default EXCLUSIVE default
 #   subscription on_x in a_default key=x
+#   activity main main
+#     reads Runtime.executor @38>30>20
+#     changes add_node @38>30

@@ -90,12 +90,17 @@ if __name__ == '__main__':
 #     reads Machine.state @56
 #     reads Search.timer @56>18
 #     reads Machine.state @56>36
-#     writes Machine.state rests later @56
 #     writes Search.timer rests under Search.timer (flag) @56>19
 #     writes Machine.state @56>35
+#     writes Machine.state rests later @56
 #     changes timer @56>19
 #     changes subscription @56>34
 #   timer go_on in machine_default every 0.1
+#     reads Machine.step @59
+#     writes Machine.done @59>65>68
+#     writes Machine.step @59>65>69
+#     writes Machine.step @59>65
+#     writes Machine.step @59>62
 #     changes subscription @59>65>68
 #   timer plan in machine_default every 0.5 conditional count=? when=callback
 #   subscription on_found in machine_default key=found conditional count=? when=callback

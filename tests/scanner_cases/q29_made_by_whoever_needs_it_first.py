@@ -69,6 +69,9 @@ if __name__ == '__main__':
 # unit lamp: SingleThreadedExecutor x1 rclpy.spin, main
 #   group lamp_default EXCLUSIVE default
 #   timer show in lamp_default every 0.5 conditional when=later
+#     reads Lamp.out @23>17
+#     reads Lamp.out @23>20
+#     writes Lamp.out rests under Lamp.out (flag) @23>18
 #     publishes lamp conditional @23
 #     changes timer @23>19
 #   subscription left_on_message in lamp_default (Lamp.on_message) key=left conditional when=later

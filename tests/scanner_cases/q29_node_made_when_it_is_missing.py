@@ -57,8 +57,11 @@ door = Door()
 # unit backend: SingleThreadedExecutor x1 spin in thread, spin
 #   group backend_default EXCLUSIVE default
 #   timer show in backend_default every 0.5 when=later
+#     reads Lamp.pub @36
 #     reads q29_node_made_when_it_is_missing.shared @37>28
-#     reads q29_node_made_when_it_is_missing.shared @38>28
+#     reads q29_node_made_when_it_is_missing.shared under Lamp.pub (flag) @38>28
+#     reads Lamp.pub @39
+#     writes Lamp.pub rests later under Lamp.pub (flag) @37
 #     publishes lamp conditional @39
 #     changes timer @38
 #   subscription heard in backend_default key=door conditional when=later

@@ -188,6 +188,27 @@ def test_a_run_may_clear_what_another_run_of_the_same_callback_uses() -> None:
     )
 
 
+def test_all_that_one_line_uses_so_is_one_finding() -> None:
+    def of(name: str, line: int, **how: bool) -> Access:
+        return replace(access(line, **how), name=name)
+
+    node = service(
+        'on_stop',
+        'free',
+        reads=tuple(
+            of(name, line, rests=line == 21, later=line == 21)
+            for name in ('Lift.index', 'Wrist.index')
+            for line in (20, 21)
+        ),
+        writes=(of('Lift.index', 22, clears=True), of('Wrist.index', 22, clears=True)),
+    )
+    (finding,) = findings_of([unit(threads(2), node)], [], [None])
+    assert finding.message == (
+        'on_stop tests Lift.index, Wrist.index and then uses them, and another run of it may set '
+        'one of them to None in between: then the use raises an exception'
+    )
+
+
 AWAITING = {'coroutine': True, 'blocking': (Blocking(call='await', source=at(25)),)}
 
 

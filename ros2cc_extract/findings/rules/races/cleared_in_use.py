@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.wording import called, shown
+from ros2cc_extract.findings.base.wording import called, listing, shown
 from ros2cc_extract.findings.races.flag_locks import shared_by
 from ros2cc_extract.findings.races.harms import uses_cleared
 from ros2cc_extract.findings.races.races import Race, RaceKind, races_of
@@ -31,12 +31,12 @@ def find(context: Context) -> Iterator[Hit]:
             reported |= {(race.first.doer.name, name) for name in race.names}
             reported |= {(name, race.first.place) for name in race.names}
             yield weighed(race, hit_of(race, help_text=HELP))
-    alike: dict[tuple[str, Place, Severity | None], list[Use]] = {}
+    alike: dict[tuple[Place, Severity | None], list[Use]] = {}
     for use in _of_themselves(context):
         name = use.access.name
         if not reported & {(use.doer.name, name), (name, use.place)}:
-            alike.setdefault((name, use.place, _severity(use, context)), []).append(use)
-    for (_, _, severity), uses in alike.items():
+            alike.setdefault((use.place, _severity(use, context)), []).append(use)
+    for (_, severity), uses in alike.items():
         yield _of_itself(uses, severity, context)
 
 
@@ -53,8 +53,10 @@ def _of_themselves(context: Context) -> Iterator[Use]:
     """The first use of each object that another run of the same callback may clear."""
     for callback in shared_by(context):
         if overlaps_itself(callback, context):
-            cleared = reversed([*uses_cleared(callback, callback)])
-            yield from {use.access.name: use for use, _ in cleared}.values()
+            first: dict[str, Use] = {}
+            for use, _ in uses_cleared(callback, callback):
+                first.setdefault(use.access.name, use)
+            yield from first.values()
 
 
 def _severity(use: Use, context: Context) -> Severity | None:
@@ -63,17 +65,20 @@ def _severity(use: Use, context: Context) -> Severity | None:
 
 
 def _of_itself(uses: Sequence[Use], severity: Severity | None, context: Context) -> Hit:
-    """One for all callbacks that come to this line."""
+    """One for all callbacks that come to this line, and for all that they use in it."""
     use, doers = uses[0], [use.doer for use in uses]
+    names = list(dict.fromkeys(use.access.name for use in uses))
     is_one = len({called(doer) for doer in doers}) == 1
     verbs, whose = (('tests', 'uses'), 'it') if is_one else (('test', 'use'), 'one of them')
+    what = 'it' if len(names) == 1 else 'them'
     return Hit(
         place=use.place,
-        message=f'{shown(doers)} {verbs[0]} {use.access.name} and then {verbs[1]} it, and another '
-        f'run of {whose} may set it to None in between: then the use raises an exception',
+        message=f'{shown(doers)} {verbs[0]} {listing(names)} and then {verbs[1]} {what}, and '
+        f'another run of {whose} may set {"it" if what == "it" else "one of them"} to None in '
+        'between: then the use raises an exception',
         help=HELP,
         severity=severity,
-        subjects=(*(doer.name for doer in doers), use.access.name),
+        subjects=(*(doer.name for doer in doers), *names),
         run=refuting_run(SELF_OVERLAP, context, use.doer),
     )
 
