@@ -51,6 +51,7 @@ from ros2cc_extract.extract.static.units.wakers.mutual_exclusion import keeps_to
 from ros2cc_extract.extract.static.units.wakers.obstructed_wakers import is_kept_out
 from ros2cc_extract.extract.static.units.wakers.operations import (
     as_unsure,
+    by_interruption,
     comes_last,
     ended_last,
     ends_by_itself,
@@ -362,8 +363,7 @@ class UnitWaits(DataWriters):
         unsure = unsure or why_no_thread(mine, doer, self._name) or why_no_end(able, doer)
         if unsure is not None:
             found = list(as_unsure(found))
-        if not mine and reference.number in self._world.interruptible:
-            found = [Waker(by=OUTSIDE, source=raw.source)]
+        found = by_interruption(raw, reference, mine, doer, self._world) or found
         why = self._why_open(mine, reference) or unsure or why_none(raw, mine, doer, self._world)
         return found, why
 

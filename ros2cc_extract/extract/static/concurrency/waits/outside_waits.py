@@ -25,6 +25,7 @@ from ros2cc_extract.spec.effects import AWAIT, POLLING_LOOP, Blocking
 from ros2cc_extract.spec.model import When
 
 JOIN = 'Thread.join'
+_SIGINT = frozenset({'KeyboardInterrupt', 'BaseException'})
 RATE = 'Rate.sleep'
 ANSWERS = frozenset(['client.call', 'send_goal', 'get_result', 'busy wait'])
 _FUTURES = frozenset(['client', 'goal', 'result', 'cancel', 'future', 'task'])
@@ -102,14 +103,16 @@ def _remember(
 
 def note_interruptible(world: ConcurrentWorld, name: str, on: Value | None) -> None:
     """
-    Remember an event on which the main program may wait for the signal that ends it.
+    Remember on what the main program may wait for the signal that ends it.
 
-    What nobody can set as it has no name, or what stands where an interruption is caught.
+    An event that nobody can set as it has no name, or one where an interruption is caught; and
+    the end of a thread where just that is caught.
     Source: CPython 3.12, ``signal`` (SIGINT raises ``KeyboardInterrupt`` in the main thread).
     """
-    if name != 'Event.wait' or not isinstance(on, Instance) or world.in_thread:
+    if not isinstance(on, Instance) or world.in_thread:
         return
-    if world.caught or on.hint is None:
+    is_join = name == JOIN and any(not _SIGINT.isdisjoint(names) for names in world.caught)
+    if is_join or (name == 'Event.wait' and (world.caught or on.hint is None)):
         world.interruptible.add(id(on))
 
 

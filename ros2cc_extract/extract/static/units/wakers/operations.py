@@ -17,6 +17,7 @@ from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import Doer
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import OUTSIDE, TIME, WORKING_LOOP, Blocking, Waker
+from ros2cc_extract.spec.model import ActivityKind
 
 _KEPT = 'it is kept in a collection, and the code that takes it out could not be followed'
 
@@ -131,6 +132,15 @@ def ended_last(
     in_time = (waking for waking in given if not come_behind([waking.ended], doer.runners))
     last = (waking for waking in in_time if comes_last(waking, world))
     return next((waking.place for waking in last), None)
+
+
+def by_interruption(
+    raw: Blocking, reference: ResourceRef, mine: Sequence[Waking], doer: Doer, world: RosWorld
+) -> list[Waker]:
+    """What ends a wait of the main program that catches the signal which ends it."""
+    is_join = Word.END in reference.ended_by and getattr(doer, 'kind', None) is ActivityKind.MAIN
+    is_caught = reference.number in world.interruptible and (is_join or not mine)
+    return [Waker(by=OUTSIDE, source=raw.source)] if is_caught else []
 
 
 def why_none(raw: Blocking, mine: Sequence[Waking], doer: Doer, world: RosWorld) -> Unknown | None:
