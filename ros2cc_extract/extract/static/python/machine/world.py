@@ -290,11 +290,12 @@ class World:
         self.ready |= facts
         if self.effects is not None:
             self.effects.stored_or_stale += facts
+            self.effects.stale.update(name for name, word in facts if word is Word.STALE)
 
     def is_fresh(self, name: str) -> bool:
         """Whether the run waits after it has stored ``name``, but on no way to here."""
         stale = Const(name), Word.STALE
-        is_known = self.effects is not None and stale in self.effects.stored_or_stale
+        is_known = self.effects is not None and stale[0] in self.effects.stale
         return is_known and not self.open_loops and stale not in self.ready
 
     @contextmanager
