@@ -16,7 +16,7 @@ from itertools import combinations
 
 from ros2cc_extract.findings.base.model import Remark
 from ros2cc_extract.findings.base.rule import Context, Doer
-from ros2cc_extract.findings.base.wording import called
+from ros2cc_extract.findings.base.wording import called, listing
 from ros2cc_extract.findings.races import happens_before
 from ros2cc_extract.findings.races.critical_sections import (
     is_operand,
@@ -148,16 +148,18 @@ class Race:
         )
 
     def related(self) -> tuple[Remark, ...]:
-        """The other writes; one function of several entities is listed once."""
+        """The other writes, each line once."""
         writes = self.others
         if self.kind is RaceKind.TORN_STATE:
             pairs = [(use.doer, name) for use in self.others for name in self.names]
             writes = tuple(Use(d, w) for d, name in pairs for w in writes_of(d).get(name, ())[:1])
-        remarks = (
-            Remark(use.place, f'{called(use.doer)} writes {use.access.name} here')
-            for use in writes
+        alike: dict[tuple[Place, str], list[str]] = {}
+        for use in writes:
+            alike.setdefault((use.place, use.access.name), []).append(called(use.doer))
+        return tuple(
+            Remark(place, f'{listing(doers)} write{"s" * (len({*doers}) == 1)} {name} here')
+            for (place, name), doers in alike.items()
         )
-        return tuple(dict.fromkeys(remarks))
 
 
 @dataclass(frozen=True)

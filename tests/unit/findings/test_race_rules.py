@@ -331,6 +331,16 @@ def test_one_function_of_several_entities_is_named_once() -> None:
     assert [remark.text for remark in finding.related] == ['on_done writes Arm.a here']
 
 
+def test_several_that_write_at_one_line_are_shown_there_once() -> None:
+    tick = timer('tick', writes=updates('Arm.a', 30))
+    done = [
+        outside(name, EntityKind.DONE_CALLBACK, writes=writes('Arm.a', 35))
+        for name in ('on_plan', 'on_home')
+    ]
+    finding = only(unit(threads(2), tick, *done), 'CC303')
+    assert [remark.text for remark in finding.related] == ['on_plan, on_home write Arm.a here']
+
+
 def test_an_update_that_others_lose_too_is_one_finding() -> None:
     count = updates('Arm.n', 30)
     image, scan = (subscription(name, 'free', writes=count) for name in ('image', 'scan'))
