@@ -75,8 +75,9 @@ LOCK_KEPT = Rule(
     why='Only `release()` releases a `threading.Lock`. All paths through the function are '
     'checked; of exceptions only those that the function raises itself and a caller catches. '
     'Lock classes of the program, with methods such as '
-    '`acquire_read` and `release_read`, are checked too. A callback that waits for a lock '
-    'releases nothing. Sources: Python, `threading`; rclpy 7.1.6 and 9.1.2, `executors.py` '
+    '`acquire_read` and `release_read`, are checked too, and methods of a class that do nothing '
+    'with a lock of it but take it, or give it back (`gate.begin()`, `gate.end()`). '
+    'A callback that waits for a lock releases nothing. Sources: Python, `threading`; rclpy 7.1.6 and 9.1.2, `executors.py` '
     '(`_make_handler`).',
     bad="""\
 class Base(Node):
