@@ -77,8 +77,8 @@ LOCK_KEPT = Rule(
     'Lock classes of the program, with methods such as '
     '`acquire_read` and `release_read`, are checked too, and methods of a class that do nothing '
     'with a lock of it but take it, or give it back (`gate.begin()`, `gate.end()`). '
-    'A callback that waits for a lock releases nothing. Sources: Python, `threading`; rclpy 7.1.6 and 9.1.2, `executors.py` '
-    '(`_make_handler`).',
+    'A callback that waits for a lock releases nothing. Sources: Python, `threading`; rclpy 7.1.6 '
+    'and 9.1.2, `executors.py` (`_make_handler`).',
     bad="""\
 class Base(Node):
     def on_velocity(self, msg):
