@@ -19,7 +19,7 @@ from ros2cc_extract.extract.static.python.machine.world import AccessKind
 from ros2cc_extract.extract.static.python.objects import iterators, loops
 from ros2cc_extract.extract.static.python.objects.iterators import RepeatedCall
 from ros2cc_extract.extract.static.python.objects.unset_globals import unset_global
-from ros2cc_extract.extract.static.python.values import constant_folding
+from ros2cc_extract.extract.static.python.values import constant_folding, enumerations
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
 from ros2cc_extract.extract.static.python.values.containers import Collection, Mapping, Sequence
 from ros2cc_extract.extract.static.python.values.values import (
@@ -89,6 +89,8 @@ class Expressions(Machine):
             return tuple(value.entries), value.rest
         if isinstance(value, Const) and isinstance(value.value, str):
             return tuple(Const(letter) for letter in value.value), None
+        if isinstance(value, Class) and (members := enumerations.members_of(value)):
+            return tuple(members), None
         if isinstance(value, Choice):
             return (), Unknown('one of several sequences, depending on a branch', place)
         if isinstance(value, Mystery):

@@ -41,7 +41,7 @@ from ros2cc_extract.extract.static.python.machine.block_exits import (
     RETURN,
 )
 from ros2cc_extract.extract.static.python.machine.frame import Frame
-from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.machine import Machine, held_by_all
 from ros2cc_extract.extract.static.python.machine.store import Writes
 from ros2cc_extract.extract.static.python.machine.world import (
     AccessKind,
@@ -119,7 +119,7 @@ class Statements(Machine):
                 if flow & NEXT:
                     kept.append(self.world.held)
                     known.append(self.world.ready)
-        self.world.held = _held_by_all(kept or [held])
+        self.world.held = held_by_all(kept or [held])
         self.world.ready = path_facts.of_all(known or [ready])
         live = [end for end in ends if end[0] & ~DEAD]
         if not live:
@@ -143,11 +143,6 @@ def _keep_loop_exits(ends: Sequence[tuple[int, Writes]], frame: Frame) -> None:
             frame.breaks.append(own)
         if own and flow & CONTINUE:
             frame.continues.append(own)
-
-
-def _held_by_all(ends: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
-    """Locks that are held however the branches were left."""
-    return tuple(lock for lock in ends[0] if all(lock in others for others in ends[1:]))
 
 
 def _without(writes: Writes, scope: Scope) -> Writes:

@@ -243,8 +243,9 @@ class Machine(Observer, LibraryHooks, ABC):
         """
         results: list[tuple[Value, Writes, bool]] = []
         ready, ends = self.world.ready, []
+        held, kept_locks = self.world.held, []
         for index, attempt in enumerate(choices):
-            self.world.ready = ready
+            self.world.held, self.world.ready = held, ready
             with self.on_path(place, index):
                 mark = self.store.open_branch()
                 result = attempt()
@@ -252,7 +253,9 @@ class Machine(Observer, LibraryHooks, ABC):
                 results.append((result, self.store.close_branch(mark), stopped))
                 if not stopped:
                     ends.append(self.world.ready)
+                    kept_locks.append(self.world.held)
         self.world.ready = of_all(ends or [ready])
+        self.world.held = held_by_all(kept_locks or [held])
         going_on = [entry for entry in results if not entry[2]]
         self.world.stopped = not going_on
         kept = going_on or results
@@ -275,3 +278,8 @@ class Machine(Observer, LibraryHooks, ABC):
             return act(value)
         options = value.options
         return self.branch([partial(act, option) for option in options], place)
+
+
+def held_by_all(ends: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
+    """Locks that are held however the branches were left."""
+    return tuple(lock for lock in ends[0] if all(lock in others for others in ends[1:]))

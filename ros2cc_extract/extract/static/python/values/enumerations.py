@@ -76,20 +76,24 @@ def settle(cls: Class, slots: dict[str, Value]) -> None:
 
 def made(cls: Class, call: Call) -> Value | None:
     """``State(1)``: the member that has this value, if that is known; ``None`` elsewhere."""
-    owner = _name_of(cls)
-    members = [
-        value
-        for value in cls.slots.values()
-        if isinstance(value, Const)
-        and isinstance(value.value, Member)
-        and value.value.owner == owner
-    ]
+    members = members_of(cls)
     if not members:
         return None
     given = call.args[0] if call.args else None
     same = (each for each in members if given in (each, each.value.value))
     reason = f'a member of {cls.name}'
     return next(same, None) or Mystery(Unknown(reason, call.place), cls.name)
+
+
+def members_of(cls: Class) -> list[Const]:
+    """The members in their order, each once; none of a class that is no plain enumeration."""
+    owner = _name_of(cls)
+    found = (value for value in cls.slots.values() if isinstance(value, Const))
+    return list(
+        dict.fromkeys(
+            each for each in found if isinstance(each.value, Member) and each.value.owner == owner
+        )
+    )
 
 
 def _name_of(cls: Class) -> str:
