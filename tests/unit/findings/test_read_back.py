@@ -218,6 +218,11 @@ else:
     self.store()
     return
 self.show()""",
+    'the wait stands where nothing is stored': """if self.now() % 2:
+    self.state = self.now()
+    return
+time.sleep(0.3)
+self.show()""",
     'the wait alone returns': """self.state = self.now()
 if self.state % 2:
     time.sleep(0.3)

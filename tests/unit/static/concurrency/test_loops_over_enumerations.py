@@ -49,6 +49,14 @@ def test_the_wait_for_an_item_has_its_own_waker(made: str, stored: str, by: list
     assert [waker.by for waker in wait.wakers] == by
 
 
+@pytest.mark.parametrize('made', MADE)
+def test_another_item_does_not_end_it(made: str) -> None:
+    text = PROGRAM.replace('MADE', made).replace('SET', 'OPEN').replace('KIND', 'Enum')
+    wait = scan_text(text).units[0].callbacks[0].blocking[0]
+    assert wait.call == 'Event.wait'
+    assert wait.wakers == ()
+
+
 def test_one_of_numbers_is_left_open() -> None:
     text = PROGRAM.replace('MADE', MADE[0]).replace('SET', 'CLOSED').replace('KIND', 'IntEnum')
     wait = scan_text(text).units[0].callbacks[0].blocking[0]

@@ -79,6 +79,7 @@ def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame
     place = frame.place(node)
     if isinstance(owner, Mapping):
         if key in owner.entries if loops.is_key(key) else False:
+            machine.world.note_apart(owner.entries[key], owner.entries.values())
             return owner.entries[key]
         if isinstance(key, Mystery) and next(reversed(owner.entries), None) is key:
             return owner.entries[key]
@@ -92,6 +93,7 @@ def _item(machine: Machine, owner: Value, key: Value, node: ast.Subscript, frame
             return _slice(machine, owner, node.slice, frame)
         index = loops.index_of(key, len(owner.items))
         if index is not None and owner.rest is None:
+            machine.world.note_apart(owner.items[index], owner.items)
             return owner.items[index]
         if index is not None and owner.others is None and key == Const(-1):
             return owner.items[-1]  # it was put in last

@@ -89,7 +89,7 @@ class EffectLog:
     :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
     :param taken: the locks that were taken by now on every branch.
     :param stored_or_stale: what was noted of data that the run has stored, see ``path_facts.py``.
-    :param stale: the names of those of them that others may have stored since.
+    :param stored_names: the names of that data.
     :param looked: while a test is asked for what it looks at, see ``loop_ends.py``.
     """
 
@@ -118,7 +118,7 @@ class EffectLog:
     woken: dict[int, int] = field(default_factory=dict)
     taken: dict[str, None] = field(default_factory=dict)
     stored_or_stale: list[Any] = field(default_factory=list)
-    stale: set[Any] = field(default_factory=set)
+    stored_names: set[Any] = field(default_factory=set)
     looked: Looked | None = None
 
 

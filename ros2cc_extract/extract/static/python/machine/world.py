@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import field
 from enum import Enum
@@ -96,6 +96,8 @@ class World:
         serial number.
     :param skipped_if: of a branch, what has surely happened where it is not taken.
     :param called: every function that was followed, by the identity of its statement.
+    :param apart: what lies beside an object in a collection, both by their identities, see
+        ``note_apart``; and the object itself, so that no other one gets its identity.
     :param handed: functions that code which is not scanned has, where and by what name, and why
         that code is not known.
     :param escaped_to_unknown: functions, by their text, that were followed as unknown code's, and
@@ -185,6 +187,7 @@ class World:
     first_yield: ast.expr | None = None
     diagnostics: list[Diagnostic] = field(default_factory=list)
     called: dict[int, Function] = field(default_factory=dict)
+    apart: dict[int, dict[int, Value]] = field(default_factory=dict)
     without_caller: dict[int, set[int]] = field(default_factory=dict)
     decorated: list[Function] = field(default_factory=list)
     decorated_classes: list[Class] = field(default_factory=list)
@@ -273,6 +276,12 @@ class World:
         if self.open_loops:
             self.effects.looped.add((name, place))
 
+    def note_apart(self, item: Value, items: Iterable[Value]) -> None:
+        """An item is taken from a collection by its key: the others are other objects."""
+        if isinstance(item, Instance):
+            others = {id(each): each for each in items if each is not item}
+            self.apart.setdefault(id(item), {id(None): item}).update(others)
+
     def note_stored(self, name: str) -> None:
         """The run has stored data itself: it may rely on that until it waits."""
         self.ready -= {(Const(name), Word.STALE)}
@@ -290,13 +299,12 @@ class World:
         self.ready |= facts
         if self.effects is not None:
             self.effects.stored_or_stale += facts
-            self.effects.stale.update(name for name, word in facts if word is Word.STALE)
+            self.effects.stored_names.update(name for name, _ in facts)
 
     def is_fresh(self, name: str) -> bool:
-        """Whether the run waits after it has stored ``name``, but on no way to here."""
-        stale = Const(name), Word.STALE
-        is_known = self.effects is not None and stale[0] in self.effects.stale
-        return is_known and not self.open_loops and stale not in self.ready
+        """Whether the run has stored ``name`` by now, but waits behind that on no way to here."""
+        is_known = self.effects is not None and Const(name) in self.effects.stored_names
+        return is_known and not self.open_loops and (Const(name), Word.STALE) not in self.ready
 
     @contextmanager
     def left_anywhere(self) -> Iterator[None]:
