@@ -81,7 +81,8 @@ def _read_back(wait: str) -> list[str]:
 
 
 @pytest.mark.parametrize(
-    'wait', [ASKED, NAMED, TIMED, 'self.turn.wait_for(self.has_gone)', f'{ASKED}\n            pass']
+    'wait',
+    [ASKED, NAMED, TIMED, 'self.turn.wait_for(self.has_gone)', f'{ASKED}\n            pass'],
 )
 def test_a_predicate_reads_nothing_back(wait: str) -> None:
     assert not _read_back(wait)

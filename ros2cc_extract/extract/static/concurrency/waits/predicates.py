@@ -1,10 +1,10 @@
 """
 What the predicate of ``Condition.wait_for`` reads, which is asked anew after each wake-up.
 
-CPython 3.12, ``threading.py``: ``wait_for`` is a loop around ``wait`` that asks its predicate under
-the lock until it is true. What others have stored meanwhile only ends that wait, or does not. So it
-is no value that the run reads back, unless the outcome is used, or the predicate keeps what it has
-found.
+CPython 3.12, ``threading.py``: ``wait_for`` is a loop around ``wait`` that asks its predicate
+under the lock until it is true. What others have stored meanwhile only ends that wait, or does
+not. So it is no value that the run reads back, unless the outcome is used, or the predicate keeps
+what it has found.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import field
 from enum import Enum
@@ -89,7 +89,8 @@ class World:
     :param path: the undecided branches we are in.
     :param count: how often what is made now is made (loops).
     :param is_program: it is run from an entry, so that nothing happens before its set-up.
-    :param open_loops: how many loops with an unknown number of rounds are followed.
+    :param open_loops: how many loops with an unknown number of rounds are followed; ``loop_depth``
+        how many functions were running when the last of them began.
     :param ready: what has surely happened to objects that others may wait for, see
         ``path_facts.py``.
     :param picked: what had happened to items for which they were put into a collection, by its
@@ -153,6 +154,7 @@ class World:
         may change by themselves.
     :param literals: constants that are stored by their own text, by the place they are stored to.
     :param handed_over: collections that such code was given.
+    :param seen_outside: objects of the program that it was given, by their identity.
     :param doubted: classes and functions behind code that is not scanned, and what that is.
     :param described: attributes for which some class has an object with a method of its own.
     :param doubted_calls: how often these were called.
@@ -168,6 +170,7 @@ class World:
     reading: Reading = field(default_factory=Reading)
     current: Doer | None = None
     open_loops: int = 0
+    loop_depth: int = 0
     picked: dict[int, frozenset[tuple[Value, Word]]] = field(default_factory=dict)
     skipped_if: dict[tuple[Place, int], frozenset[tuple[Value, Word]]] = field(
         default_factory=dict
@@ -238,6 +241,7 @@ class World:
     outside_objects: set[Unknown] = field(default_factory=set)
     literals: dict[Place, Any] = field(default_factory=dict)
     handed_over: dict[Value, Unknown] = field(default_factory=dict)
+    seen_outside: set[int] = field(default_factory=set)
     doubted: dict[Value, str] = field(default_factory=dict)
     doubted_calls: Counter[Value] = field(default_factory=Counter)
     activity: Doer | None = None
@@ -273,8 +277,10 @@ class World:
         if self.open_loops:
             self.effects.looped.add((name, place))
 
-    def note_stored(self, name: str) -> None:
+    def note_stored(self, name: str, stack: Sequence[Function]) -> None:
         """The run has stored data itself: it may rely on that until it waits."""
+        if self.effects is not None:
+            self.effects.storers.setdefault(name, set()).add(tuple(stack))
         self.ready -= {(Const(name), Word.STALE)}
         self._note_perhaps(frozenset({(Const(name), Word.STORED)}))
 
@@ -291,11 +297,22 @@ class World:
         if self.effects is not None:
             self.effects.stored_or_stale += facts
 
-    def is_fresh(self, name: str) -> bool:
-        """Whether the run waits after it has stored ``name``, but on no way to here."""
-        stale = Const(name), Word.STALE
-        is_known = self.effects is not None and stale in self.effects.stored_or_stale
-        return is_known and not self.open_loops and stale not in self.ready
+    def is_fresh(self, name: str, stack: Sequence[Function]) -> bool:
+        """
+        Whether the run waits after it has stored ``name``, but on no way to here.
+
+        Where a loop calls a function in each round, another call of it is as another run.
+        """
+        stale, effects = (Const(name), Word.STALE), self.effects
+        if effects is None or stale in self.ready:
+            return False
+        if not self.open_loops:
+            return stale in effects.stored_or_stale
+        called, storers = tuple(stack[: self.loop_depth + 1]), effects.storers.get(name, ())
+        is_inside = len(called) > self.loop_depth
+        return (
+            is_inside and bool(storers) and all(each[: len(called)] == called for each in storers)
+        )
 
     @contextmanager
     def left_anywhere(self) -> Iterator[None]:
