@@ -60,6 +60,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import EMPTIES, FLAG, SHARED, Access, Act
 from ros2cc_extract.spec.model import When
+from ros2cc_extract.spec.program_order import steps
 
 _CODE = (Module, Library, Class, Function)
 _OF_CONTENT = (AccessKind.READ, AccessKind.UPDATE_IN_PLACE)
@@ -188,8 +189,7 @@ class Effects(Waits):
         is_import = isinstance(reading.stored, (Library, Module))
         if kind is AccessKind.WRITE:
             flag_locks.put_up(self.world, name)
-        item = reading.items.get(at)
-        joins, is_akin = torn_state.written_with(self.world, name, item, kind)
+        joins, is_akin = torn_state.written_with(self.world, name, reading.items.get(at), kind)
         access = Access(
             name=name,
             source=place,
@@ -200,7 +200,7 @@ class Effects(Waits):
             keeps_size=self.world.refilling,
             moves=EMPTIES if data_kinds.is_emptied(kind, reading.stored) else self.world.moves,
             iterates=self.world.iterating,
-            item=item,
+            item=reading.items.get(at),
             chosen=chosen,
             rests=is_used or (rests and not (is_read or (is_stored and is_import))),
             bare=not rests and data_kinds.is_bare(self.world, is_content or at in reading.used),
@@ -428,7 +428,7 @@ class Effects(Waits):
                 if self.world.effects is not None:
                     note_once(self.world.effects.locks, act)
                     if self.world.path == self.world.callback_path and not may_fail:
-                        self.world.effects.taken[name] = None
+                        self.world.effects.taken.setdefault(name, steps(act))
                 self._note_in_main(name, place)
 
     def _note_in_main(self, name: str, place: Place) -> None:

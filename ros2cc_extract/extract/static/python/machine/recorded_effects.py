@@ -88,7 +88,8 @@ class EffectLog:
     :param stored_anyway: the way to a store that rests on nothing read, see ``refreshed.py``.
     :param resting: loops that await something in each round.
     :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
-    :param taken: the locks that were taken by now on every branch.
+    :param taken: the locks that were taken by now on every branch, with the way to the first place
+        at which each was.
     :param stored_or_stale: what was noted of data that the run has stored, see ``path_facts.py``.
     :param storers: the functions that were running when data was stored, by its name.
     :param looked: while a test is asked for what it looks at, see ``loop_ends.py``.
@@ -118,7 +119,7 @@ class EffectLog:
     order: list[tuple[str, object]] = field(default_factory=list)
     pieces: list[Piece] = field(default_factory=list)
     woken: dict[int, int] = field(default_factory=dict)
-    taken: dict[str, None] = field(default_factory=dict)
+    taken: dict[str, tuple[Place, ...]] = field(default_factory=dict)
     stored_or_stale: list[Any] = field(default_factory=list)
     storers: dict[str, set[tuple[Function, ...]]] = field(default_factory=dict)
     looked: Looked | None = None
