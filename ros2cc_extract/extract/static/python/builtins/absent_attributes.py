@@ -13,7 +13,10 @@ import ast
 from collections.abc import Iterator
 
 from ros2cc_extract.extract.static.program.text_queries import mangled, noted_on
+from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
+from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
+from ros2cc_extract.extract.static.python.machine.world import Cut, note_once
 from ros2cc_extract.extract.static.python.values.values import Class, Instance, Library, Value
 from ros2cc_extract.light_dataclasses import dataclass
 
@@ -51,6 +54,52 @@ def is_absent(machine: Machine, owner: Value, name: str) -> bool:
         return False
     texts = (noted_on(tree, 'attributes', _text_of) for tree in world.trees)
     return not any(text.is_open or name in text.names for text in texts)
+
+
+def note_use(machine: Machine, owner: Value, node: ast.Attribute, frame: Frame) -> None:
+    """
+    ``owner.x`` is asked for: where that is absent, the statement raises and does nothing more.
+
+    What the rest of the statement would do is noted nowhere, until ``execute`` goes on.
+    """
+    statement, world = frame.statement, machine.world
+    if statement is None or not world.in_callback:
+        return
+    if id(node) not in noted_on(statement, 'sure_parts', _sure_parts):
+        return
+    name, place = frame.attribute_name(node.attr), frame.place(node)
+    if not is_absent(machine, owner, name):
+        return
+    machine.note_raised(ast.Name('AttributeError', ast.Load()), place)
+    if not world.caught:
+        reason = f'{node.attr!r} is assigned nowhere, so that this raises AttributeError'
+        note_once(world.cut, Cut(reason, place, machine.running_classes()))
+    world.effects, world.stopped = EffectLog(), True
+
+
+def _sure_parts(statement: ast.stmt) -> frozenset[int]:
+    """The attributes that are asked for whenever the statement begins."""
+    found, waiting = set[int](), list[ast.AST]()
+    if isinstance(statement, (ast.Expr, ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Return)):
+        waiting += [statement.value] if statement.value is not None else []
+    elif isinstance(statement, ast.If):
+        waiting.append(statement.test)
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, ast.Attribute):
+            found.add(id(part))
+        if isinstance(part, ast.BoolOp):
+            waiting.append(part.values[0])
+        elif isinstance(part, ast.IfExp):
+            waiting.append(part.test)
+        elif isinstance(part, ast.Compare):
+            waiting += [part.left, part.comparators[0]]
+        elif not isinstance(part, _LATER):
+            waiting += ast.iter_child_nodes(part)
+    return frozenset(found)
+
+
+_LATER = (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
 
 
 def _lacks(machine: Machine, cls: Value, name: str) -> bool:
