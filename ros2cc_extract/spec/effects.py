@@ -245,7 +245,7 @@ class Access:
     :param compared: true for a read that only asks whether it is still what the code has in a
         name of its own.
     :param fresh: true for a read to which no way leads on which the run has stored that data and
-        has waited since.
+        has waited since, or by which a wait only asks anew whether it is over.
     :param admits: true for a read of a goal callback because of which it turns goals down.
     :param later: true for the use of an object where something was called since it was tested, and
         for the write of a value where something was called since that was read.

@@ -12,6 +12,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     iterations,
     kept_threads,
     lost_notifications,
+    refreshed,
     signal_locks,
     torn_state,
     torn_updates,
@@ -24,9 +25,7 @@ from ros2cc_extract.extract.static.concurrency.accesses.held_locks import (
 from ros2cc_extract.extract.static.concurrency.accesses.holders import data_kinds, loose_data
 from ros2cc_extract.extract.static.concurrency.waits import outside_waits, values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, is_main, touch
-from ros2cc_extract.extract.static.program.text_queries import (
-    unmangled,
-)
+from ros2cc_extract.extract.static.program.text_queries import unmangled
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog, Looked
@@ -61,6 +60,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import EMPTIES, FLAG, SHARED, Access, Act
 from ros2cc_extract.spec.model import When
+from ros2cc_extract.spec.program_order import steps
 
 _CODE = (Module, Library, Class, Function)
 _OF_CONTENT = (AccessKind.READ, AccessKind.UPDATE_IN_PLACE)
@@ -176,21 +176,20 @@ class Effects(Waits):
         is_stored, is_content = kind is AccessKind.WRITE, kind is AccessKind.UPDATE_IN_PLACE
         if is_read:
             reading.note_read(name)
-        at = place, attribute or name.rpartition('.')[2]
-        flows = name in reading.flowing
-        is_computed = flows or name in reading.choices.get(at, ())
-        is_computed = is_computed or not self.world.given_from.isdisjoint((name, ITSELF))
+        at, flows = (place, attribute or name.rpartition('.')[2]), name in reading.flowing
+        is_computed = flows or not self.world.given_from.isdisjoint((name, ITSELF))
+        is_computed = is_computed or name in reading.choices.get(at, ())
         chosen = is_content and is_computed
         is_tested = reading.governs(name, self.world.path)
         is_tested = is_tested or (is_content and reading.leads_to(name, self.world.path))
+        is_tested = is_tested and not (is_stored and refreshed.is_known(self.world, name, place))
         rests = (is_tested or flows or chosen) and not self.world.by_local
         is_used = rests and is_read and at in reading.used
         # What is imported is the same each time, whatever was found before.
         is_import = isinstance(reading.stored, (Library, Module))
         if kind is AccessKind.WRITE:
             flag_locks.put_up(self.world, name)
-        item = reading.items.get(at)
-        joins, is_akin = torn_state.written_with(self.world, name, item, kind)
+        joins, is_akin = torn_state.written_with(self.world, name, reading.items.get(at), kind)
         access = Access(
             name=name,
             source=place,
@@ -201,12 +200,12 @@ class Effects(Waits):
             keeps_size=self.world.refilling,
             moves=EMPTIES if data_kinds.is_emptied(kind, reading.stored) else self.world.moves,
             iterates=self.world.iterating,
-            item=item,
+            item=reading.items.get(at),
             chosen=chosen,
             rests=is_used or (rests and not (is_read or (is_stored and is_import))),
             bare=not rests and data_kinds.is_bare(self.world, is_content or at in reading.used),
             compared=is_read and at in reading.compared,
-            fresh=is_read and self.world.is_fresh(name),
+            fresh=is_read and self.world.is_fresh(name, self.stack),
             later=self._is_late(name, is_used=is_used or (is_content and is_tested), kind=kind),
             clears=is_stored and reading.stored == NONE,
             lowers=is_stored and reading.stored != NONE and data_kinds.is_false(reading.stored),
@@ -220,7 +219,8 @@ class Effects(Waits):
         )
         _note_closer(effects.reads if is_read else effects.writes, access)
         if kind is AccessKind.WRITE:
-            self.world.note_stored(name)
+            refreshed.note_stored(self.world, access)
+            self.world.note_stored(name, self.stack)
             flag_locks.put_down(self.world, name)
             reading.forget(name, self.world.path)
         if not is_read:
@@ -428,7 +428,7 @@ class Effects(Waits):
                 if self.world.effects is not None:
                     note_once(self.world.effects.locks, act)
                     if self.world.path == self.world.callback_path and not may_fail:
-                        self.world.effects.taken[name] = None
+                        self.world.effects.taken.setdefault(name, steps(act))
                 self._note_in_main(name, place)
 
     def _note_in_main(self, name: str, place: Place) -> None:

@@ -123,7 +123,9 @@ def mangled(name: str, cls: str | None) -> str:
 
 
 def unmangled(name: str, cls: str) -> str:
-    """How the text of class ``cls`` calls its attribute ``name``."""
+    """How the text of class ``cls`` calls its attribute ``name``; only by a text, as ``'__x'``."""
+    if name.startswith('__') and not name.endswith('__'):
+        return repr(name)
     prefix = f'_{cls.lstrip("_")}'
     return name.removeprefix(prefix) if name.startswith(f'{prefix}__') else name
 

@@ -13,7 +13,7 @@ Sources: CPython 3.12, ``signal`` (handlers run in the main thread), ``queue.py`
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, RelatedPlace, Severity
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState
@@ -36,6 +36,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Act
+from ros2cc_extract.spec.program_order import steps
 
 _WITH_MUTEX = frozenset({'queue.Queue', 'queue.LifoQueue', 'queue.PriorityQueue'})
 
@@ -52,16 +53,28 @@ class _Take:
 def note_handler_locks(world: RosWorld) -> None:
     """Tell of such locks, when all was followed."""
     for number, handler in enumerate(world.signal_handlers):
-        acts = handler.effects.locks if handler.interrupts else []
-        for act in acts:
-            is_waited_for = not act.tries and isinstance(act.name, str) and act.source is not None
-            if is_waited_for and is_plain_lock(str(act.name), world):
-                held = next(_held_in_main(str(act.name), number, world), None)
-                if held is not None:
-                    world.diagnostics.append(_told(handler, act, held))
+        for name, acts in _takes_of(handler).items() if handler.interrupts else ():
+            held = next(_held_in_main(name, number, world), None)
+            if held is not None and is_plain_lock(name, world):
+                world.diagnostics.append(_told(handler, acts, held))
 
     for handler in (each for each in world.signal_handlers if each.interrupts):
         world.diagnostics.extend(_of_queues(handler, world))
+
+
+def _takes_of(handler: ActivityState) -> dict[str, list[Act]]:
+    """
+    Where a handler takes each lock and waits for it.
+
+    What comes behind a place that no branch leads around is not reached if that place waits.
+    """
+    found: dict[str, list[Act]] = {}
+    for act in handler.effects.locks:
+        if not act.tries and isinstance(act.name, str) and act.source is not None:
+            acts, surely = found.setdefault(act.name, []), handler.effects.taken.get(act.name)
+            if not any(steps(each) == surely for each in acts):
+                acts.append(act)
+    return found
 
 
 def _of_queues(handler: ActivityState, world: RosWorld) -> Iterator[Diagnostic]:
@@ -144,8 +157,10 @@ def _called(callback: Value | None) -> str:
     return f'{owner.class_name}.{function.name}' if isinstance(owner, Instance) else function.name
 
 
-def _told(handler: ActivityState, act: Act, held: _Take) -> Diagnostic:
-    who = held.by or 'the main program'
+def _told(handler: ActivityState, acts: Sequence[Act], held: _Take) -> Diagnostic:
+    who, act = held.by or 'the main program', acts[0]
+    places = dict.fromkeys(each.source for each in acts if each.source is not None)
+    places.pop(act.source, None)  # type: ignore[arg-type]
     return Diagnostic(
         severity=Severity.ERROR,
         slug='lock-order',
@@ -154,6 +169,7 @@ def _told(handler: ActivityState, act: Act, held: _Take) -> Diagnostic:
         f'{who} may hold in the same thread: it waits for what it has interrupted, forever',
         help='only store a flag in the handler, or use a threading.RLock',
         related=(
+            *(RelatedPlace(place, f'or it takes {act.name} here') for place in places),
             RelatedPlace(held.place, f'{act.name} is taken here, in the main thread'),
             RelatedPlace(handler.place, 'the handler is set here'),
         ),

@@ -122,3 +122,33 @@ def test_a_loop_of_asyncio_runs_its_handlers_between_two_callbacks() -> None:
     )
 
     assert told(handles='self.count = 0', main=main) == []
+
+
+BRANCH = """if number == 10:
+            self.report()
+        {then}"""
+
+
+@pytest.mark.parametrize(
+    ('handles', 'also'),
+    [
+        ('self.report(); self.tick()', []),
+        ('self.tick()\n        self.tick()\n        if number: self.report()', []),
+        (BRANCH.format(then='self.tick()'), [21]),
+        (BRANCH.format(then='self.report()'), []),
+        (BRANCH.format(then='else: self.tick()'), [21]),
+        (BRANCH.format(then='self.tick()\n        self.on_end()'), [21]),
+        (BRANCH.format(then=f'else:\n            {TAKES}'), [28]),
+    ],
+)
+def test_a_lock_is_told_once_of_each_handler(handles: str, also: list[int]) -> None:
+    (one,) = told(handles=handles.replace('self.on_end()', TAKES))
+
+    others = [each for each in one.related if each.text == 'or it takes lock here']
+    assert [each.place.line for each in others] == also
+
+
+def test_two_handlers_are_two_faults() -> None:
+    found = told(makes=f'{TIMER}; signal.signal(signal.SIGUSR2, lambda *_: self.report())')
+
+    assert len(found) == 2

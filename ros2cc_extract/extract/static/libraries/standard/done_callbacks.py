@@ -60,6 +60,7 @@ _AROUND = (
     'in_thread',
     'after_spin',
     'open_loops',
+    'loop_depth',
     'assumed',
 )
 

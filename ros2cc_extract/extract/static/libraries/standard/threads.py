@@ -14,6 +14,7 @@ from ros2cc_extract.extract.static.concurrency.accesses.held_locks import GIVEN,
 from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ThreadState, thread_of
+from ros2cc_extract.extract.static.concurrency.waits import predicates
 from ros2cc_extract.extract.static.concurrency.waits.cleared_events import note_cleared
 from ros2cc_extract.extract.static.concurrency.waits.outside_waits import (
     note_join,
@@ -170,7 +171,7 @@ def _wait_for(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     world, found = machine.world, set[str]()
     predicate = call.argument(0, 'predicate')
     if world.effects is not None and predicate is not None:
-        with world.reading.of(found):
+        with world.reading.of(found), predicates.asked_again(machine, call):
             machine.call(predicate, Call(call.place))
     holds, until = lost_notifications.holds_of(world), frozenset(found)
     body = _body_of(predicate)

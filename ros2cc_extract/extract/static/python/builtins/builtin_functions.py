@@ -28,6 +28,7 @@ from ros2cc_extract.extract.static.python.objects.iterators import iterator
 from ros2cc_extract.extract.static.python.objects.memoization import keep_results
 from ros2cc_extract.extract.static.python.values import constant_folding
 from ros2cc_extract.extract.static.python.values.assumed_defaults import by_default
+from ros2cc_extract.extract.static.python.values.caught_errors import Caught
 from ros2cc_extract.extract.static.python.values.containers import (
     Collection,
     Fields,
@@ -297,6 +298,8 @@ def _isinstance(machine: Machine, receiver: Value, call: Call) -> Value:
             return Const(True)
         if all(isinstance(cls, Class) for cls in (*value.mro, *classes)):
             return Const(False)
+    if isinstance(value, Caught) and any(value.is_surely(cls) for cls in classes):
+        return Const(True)
     if isinstance(value, Const) and classes and all(isinstance(cls, Class) for cls in classes):
         return Const(False)
     return machine.mystery('isinstance', call.place, 'isinstance(…)')

@@ -6,6 +6,7 @@ import ast
 
 from ros2cc_extract.extract.static.python.branching import open_tests
 from ros2cc_extract.extract.static.python.builtins import (
+    absent_attributes,
     builtin_methods,
     computed_names,
     dispatching,
@@ -88,8 +89,10 @@ class Attributes(Machine):
         found = self._find(value, name, Place(''))
         if found is not None:
             return True
-        if isinstance(value, Instance) and any(not isinstance(cls, Class) for cls in value.mro):
-            return None
+        is_later = self.world.when is not When.START or self.world.effects is not None
+        is_open = isinstance(value, Instance) and any(not isinstance(c, Class) for c in value.mro)
+        if is_open or (is_later and isinstance(value, Instance)):
+            return False if absent_attributes.is_absent(self, value, name) else None
         return False
 
     def special_method(self, owner: Value, name: str, place: Place) -> Bound | None:

@@ -9,7 +9,11 @@ from typing import Any
 
 from ros2cc_extract.extract.static.python.branching import conditions, narrowed_types, open_tests
 from ros2cc_extract.extract.static.python.branching.order_of_text import Asked
-from ros2cc_extract.extract.static.python.builtins import code_behind, generators
+from ros2cc_extract.extract.static.python.builtins import (
+    absent_attributes,
+    code_behind,
+    generators,
+)
 from ros2cc_extract.extract.static.python.builtins.code_behind import operated
 from ros2cc_extract.extract.static.python.language.call_expressions import evaluate_call
 from ros2cc_extract.extract.static.python.language.subscripts import slice_alone, subscript
@@ -242,6 +246,8 @@ def _attribute(machine: Expressions, node: ast.Attribute, frame: Frame) -> Value
     found = machine.attribute(owner, name, place, text)
     if isinstance(owner, Mystery):
         machine.note_held(owner, name, found)
+    elif isinstance(found, Mystery) and machine.world.effects is not None:
+        absent_attributes.note_use(machine, owner, node, frame)
     return found
 
 

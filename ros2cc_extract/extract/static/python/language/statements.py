@@ -92,9 +92,11 @@ class Statements(Machine):
     def execute(self, statement: ast.stmt, frame: Frame) -> int:
         """Run one statement."""
         self.charge(1)
-        handler = _STATEMENTS.get(type(statement))
+        handler, effects = _STATEMENTS.get(type(statement)), self.world.effects
+        frame.statement = statement
         flow = handler(self, statement, frame) if handler else NEXT
         if self.world.stopped:
+            self.world.effects = effects
             return DEAD
         return flow
 

@@ -12,6 +12,7 @@ from ros2cc_extract.extract.static.python.machine.block_exits import DEAD, LEAVI
 from ros2cc_extract.extract.static.python.machine.frame import CannotCallError, Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
 from ros2cc_extract.extract.static.python.machine.path_facts import Facts
+from ros2cc_extract.extract.static.python.values.caught_errors import Caught
 
 
 def run_try(machine: Machine, node: ast.Try, frame: Frame) -> int:
@@ -106,7 +107,7 @@ def _run_handler(machine: Machine, handler: ast.ExceptHandler, frame: Frame) -> 
     """Run a handler; what it cannot call ends it."""
     if handler.name:
         text = handler.name
-        caught = machine.mystery('a caught exception', frame.place(handler), text)
+        caught = Caught(frame.place(handler), text, _names_of(handler))
         machine.assign(ast.Name(text, ast.Store()), caught, frame)
     held = machine.given_back_in(handler.body)
     machine.world.held = tuple(dict.fromkeys((*machine.world.held, *held)))

@@ -44,6 +44,7 @@ class Frame:
     :param sources: shared data that own names were computed from, while a callback is followed.
     :param continues: the same of the branches that go on with its next round.
     :param narrowed: names and attributes of which it was asked what they are instances of.
+    :param statement: the one that was begun last.
     :param tests: undecided ones with the place of the first ``if``, whether that asks the
         opposite, and the options of the values that were asked.
     """
@@ -64,6 +65,7 @@ class Frame:
     copies: frozenset[str] = frozenset()
     sources: dict[str, frozenset[str]] = field(default_factory=dict)
     narrowed: frozenset[str] = frozenset()
+    statement: ast.stmt | None = None
     tests: dict[str, tuple[Place, bool, tuple[tuple[Value, ...], ...]]] = field(
         default_factory=dict
     )

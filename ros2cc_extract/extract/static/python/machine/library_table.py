@@ -36,6 +36,7 @@ class LibraryClass:
     :param is_beside: an object may be this in addition to what another base class makes of it.
     :param again: what holds for an instance that is made again, by what made it before.
     :param matters: whether an instance does that is made with these arguments.
+    :param has: whether an instance may have an attribute of that name; not known for most classes.
     """
 
     state: StateFactory | None = None
@@ -46,6 +47,7 @@ class LibraryClass:
     matters: Callable[[Call], bool] | None = None
     methods: dict[str, Handler] = field(default_factory=dict)
     properties: dict[str, Property] = field(default_factory=dict)
+    has: Callable[[str], bool] | None = None
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import field
 from typing import Any
 
-from ros2cc_extract.extract.static.python.values.values import Instance, Path
+from ros2cc_extract.extract.static.python.values.values import Function, Instance, Path
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place, Unknown
 from ros2cc_extract.spec.effects import Access, Act, Blocking
@@ -85,11 +85,13 @@ class EffectLog:
     :param written: of a write, by name and place, what lay behind it, and whether on a branch.
     :param begun: how many functions of the program have begun.
     :param stored_last: what was stored last in an object, by its name and the way there.
+    :param stored_anyway: the way to a store that rests on nothing read, see ``refreshed.py``.
     :param resting: loops that await something in each round.
     :param steps: what lets a number grow, by its place, see ``counted_tests.py``.
-    :param taken: the locks that were taken by now on every branch.
+    :param taken: the locks that were taken by now on every branch, with the way to the first place
+        at which each was.
     :param stored_or_stale: what was noted of data that the run has stored, see ``path_facts.py``.
-    :param stored_names: the names of that data.
+    :param storers: the functions that were running when data was stored, by its name.
     :param looked: while a test is asked for what it looks at, see ``loop_ends.py``.
     """
 
@@ -108,6 +110,7 @@ class EffectLog:
     looped: set[object] = field(default_factory=set)
     written: dict[object, tuple[object, bool]] = field(default_factory=dict)
     stored_last: dict[object, Stored] = field(default_factory=dict)
+    stored_anyway: dict[tuple[str, Place], Path] = field(default_factory=dict)
     exits: dict[Place | None, frozenset[Place]] = field(default_factory=dict)
     begun: int = 0
     resting: set[Place | None] = field(default_factory=set)
@@ -116,9 +119,9 @@ class EffectLog:
     order: list[tuple[str, object]] = field(default_factory=list)
     pieces: list[Piece] = field(default_factory=list)
     woken: dict[int, int] = field(default_factory=dict)
-    taken: dict[str, None] = field(default_factory=dict)
+    taken: dict[str, tuple[Place, ...]] = field(default_factory=dict)
     stored_or_stale: list[Any] = field(default_factory=list)
-    stored_names: set[Any] = field(default_factory=set)
+    storers: dict[str, set[tuple[Function, ...]]] = field(default_factory=dict)
     looked: Looked | None = None
 
 

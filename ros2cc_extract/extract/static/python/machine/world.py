@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import field
 from enum import Enum
@@ -89,7 +89,8 @@ class World:
     :param path: the undecided branches we are in.
     :param count: how often what is made now is made (loops).
     :param is_program: it is run from an entry, so that nothing happens before its set-up.
-    :param open_loops: how many loops with an unknown number of rounds are followed.
+    :param open_loops: how many loops with an unknown number of rounds are followed; ``loop_depth``
+        how many functions were running when the last of them began.
     :param ready: what has surely happened to objects that others may wait for, see
         ``path_facts.py``.
     :param picked: what had happened to items for which they were put into a collection, by its
@@ -155,6 +156,7 @@ class World:
         may change by themselves.
     :param literals: constants that are stored by their own text, by the place they are stored to.
     :param handed_over: collections that such code was given.
+    :param seen_outside: objects of the program that it was given, by their identity.
     :param doubted: classes and functions behind code that is not scanned, and what that is.
     :param described: attributes for which some class has an object with a method of its own.
     :param doubted_calls: how often these were called.
@@ -170,6 +172,7 @@ class World:
     reading: Reading = field(default_factory=Reading)
     current: Doer | None = None
     open_loops: int = 0
+    loop_depth: int = 0
     picked: dict[int, frozenset[tuple[Value, Word]]] = field(default_factory=dict)
     skipped_if: dict[tuple[Place, int], frozenset[tuple[Value, Word]]] = field(
         default_factory=dict
@@ -241,6 +244,7 @@ class World:
     outside_objects: set[Unknown] = field(default_factory=set)
     literals: dict[Place, Any] = field(default_factory=dict)
     handed_over: dict[Value, Unknown] = field(default_factory=dict)
+    seen_outside: set[int] = field(default_factory=set)
     doubted: dict[Value, str] = field(default_factory=dict)
     doubted_calls: Counter[Value] = field(default_factory=Counter)
     activity: Doer | None = None
@@ -282,8 +286,10 @@ class World:
             others = {id(each): each for each in items if each is not item}
             self.apart.setdefault(id(item), {id(None): item}).update(others)
 
-    def note_stored(self, name: str) -> None:
+    def note_stored(self, name: str, stack: Sequence[Function]) -> None:
         """The run has stored data itself: it may rely on that until it waits."""
+        if self.effects is not None:
+            self.effects.storers.setdefault(name, set()).add(tuple(stack))
         self.ready -= {(Const(name), Word.STALE)}
         self._note_perhaps(frozenset({(Const(name), Word.STORED)}))
 
@@ -299,12 +305,23 @@ class World:
         self.ready |= facts
         if self.effects is not None:
             self.effects.stored_or_stale += facts
-            self.effects.stored_names.update(name for name, _ in facts)
 
-    def is_fresh(self, name: str) -> bool:
-        """Whether the run has stored ``name`` by now, but waits behind that on no way to here."""
-        is_known = self.effects is not None and Const(name) in self.effects.stored_names
-        return is_known and not self.open_loops and (Const(name), Word.STALE) not in self.ready
+    def is_fresh(self, name: str, stack: Sequence[Function]) -> bool:
+        """
+        Whether the run has stored ``name`` by now, but waits behind that on no way to here.
+
+        Where a loop calls a function in each round, another call of it is as another run.
+        """
+        if self.effects is None or (Const(name), Word.STALE) in self.ready:
+            return False
+        storers = self.effects.storers.get(name, ())
+        if not self.open_loops:
+            return bool(storers)
+        called = tuple(stack[: self.loop_depth + 1])
+        is_inside = len(called) > self.loop_depth
+        return (
+            is_inside and bool(storers) and all(each[: len(called)] == called for each in storers)
+        )
 
     @contextmanager
     def left_anywhere(self) -> Iterator[None]:

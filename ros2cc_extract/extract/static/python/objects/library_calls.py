@@ -102,6 +102,8 @@ class LibraryCalls(Machine):
             return
         self.note_library_call(name, call.place)
         self.note_handed((*call.args, *call.keywords.values()), call.place, name, function)
+        given = (each for a in (*call.args, *call.keywords.values()) for each in options_of(a))
+        self.world.seen_outside |= {id(each) for each in given if isinstance(each, Instance)}
         if not name:
             return
         why = Unknown(f'it is handed to {name}, which is not scanned', call.place)

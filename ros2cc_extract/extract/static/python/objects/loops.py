@@ -133,10 +133,12 @@ def may_be_filled(machine: Machine, value: Collection) -> bool:
 @contextmanager
 def counted(machine: Machine, count: int | Unknown) -> Iterator[None]:
     """Everything made inside is made ``count`` times as often."""
-    before = machine.world.count
+    before, depth = machine.world.count, machine.world.loop_depth
     if machine.world.open_loops == 0:
         machine.world.begin_outermost_loop()
     machine.world.open_loops += isinstance(count, Unknown)
+    if isinstance(count, Unknown):
+        machine.world.loop_depth = len(machine.stack)
     if isinstance(count, Unknown) or isinstance(before, Unknown):
         machine.world.count = before if isinstance(before, Unknown) else count
     else:
@@ -144,7 +146,7 @@ def counted(machine: Machine, count: int | Unknown) -> Iterator[None]:
     try:
         yield
     finally:
-        machine.world.count = before
+        machine.world.count, machine.world.loop_depth = before, depth
         machine.world.open_loops -= isinstance(count, Unknown)
 
 

@@ -398,6 +398,30 @@ NODE_METHODS: dict[str, Handler] = {
     'destroy_node': _destroy_node,
 }
 
+_NAMES = frozenset(
+    {
+        *('clients', 'context', 'default_callback_group', 'executor', 'guards', 'handle'),
+        *('publishers', 'services', 'subscriptions', 'timers', 'waitables', 'ParameterInput'),
+        *('PARAM_REL_TOL', 'logger', 'name', 'namespace', 'clock'),
+    }
+)
+_VERBS = frozenset(
+    {
+        *('add', 'count', 'create', 'declare', 'describe', 'destroy', 'get', 'has', 'is', 'list'),
+        *('on', 'register', 'remove', 'resolve', 'set', 'spin', 'try', 'undeclare', 'use', 'wait'),
+    }
+)
+
+
+def _may_have(name: str) -> bool:
+    """
+    Whether a node has such an attribute by itself, on some release.
+
+    Source: rclpy 7.1.6 and 9.1.2, ``node.py``; a later one may have more methods.
+    """
+    return name.startswith('_') or name in _NAMES or name.partition('_')[0] in _VERBS
+
+
 TABLE = Library(
     classes={
         NODE: LibraryClass(
@@ -409,6 +433,7 @@ TABLE = Library(
                 DEFAULT_GROUP: _default_group,
                 'context': context_of_node,
             },
+            has=_may_have,
         ),
         'rclpy.publisher.Publisher': LibraryClass(),
     },
