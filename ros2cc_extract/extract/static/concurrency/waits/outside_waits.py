@@ -45,9 +45,7 @@ _ASYNCIO_AWAIT = 'asyncio-await'
 
 def in_words(call: str) -> str:
     """Name a wait in a sentence."""
-    return (
-        'a busy loop' if call == 'busy wait' else f'a {call}' if call.endswith(' loop') else call
-    )
+    return 'a busy loop' if call == 'busy wait' else call
 
 
 def _last(name: str) -> str:

@@ -185,13 +185,14 @@ def _daemon(state: ActivityState) -> str:
 def _diagnostic(state: ActivityState, block: Blocking, why: str) -> Diagnostic:
     at = f' ({block.source})' if block.source is not None else ''
     still = ' any more' if why == NOT_SPUN else ''
+    call = f'a {block.call}' if block.call == WORKING_LOOP else in_words(block.call)
     help_text = _WAKE if why != _BY_HOOKS else 'end it when the spin is over, and not by `atexit`'
     return Diagnostic(
         severity=Severity.WARNING,
         slug='nobody-spins',
         place=state.place,
         message=f'the program ends only when {_who(state)} has ended; which waits in '
-        f'{in_words(block.call)} for {block.resource or "an answer"}{at}, {why}{still}: '
+        f'{call} for {block.resource or "an answer"}{at}, {why}{still}: '
         'the program may never exit',
         help=f'{help_text}; or {_daemon(state)}',
     )
