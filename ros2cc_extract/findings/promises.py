@@ -23,6 +23,7 @@ from ros2cc_extract.findings.races.handed_functions import (
 from ros2cc_extract.findings.rules.deadlocks.never_ends import RULE as NEVER_ENDS
 from ros2cc_extract.findings.rules.deadlocks.never_ends import open_facts
 from ros2cc_extract.findings.rules.deadlocks.undecided_wait import OUTSIDE_WAIT, UNDECIDED
+from ros2cc_extract.findings.rules.starvation import long_sleep
 from ros2cc_extract.findings.waits.verdicts import NODE_KEPT, PROGRESS, SELF_OVERLAP
 from ros2cc_extract.findings.waits.workers import Workers, is_one_thread, workers_of
 from ros2cc_extract.light_dataclasses import dataclass
@@ -190,6 +191,7 @@ class _Unit:
         if promise in _ON_WAITS:
             yield from self._open_waits(promise)
         if promise is Promise.STARVATION:
+            yield from _open_rounds(self.unit)
             yield from _overload(self.unit)
             yield from _open_pauses(self.unit)
         if promise is Promise.RACES:
@@ -321,6 +323,15 @@ def _overload(unit: Spec) -> Iterator[str]:
         is_delay = load.kind is LoadKind.UNKNOWN and load.serving is not Serving.LEFTOVER
         if load.kind is not LoadKind.FINE and not is_delay:
             yield f'{callback.display_name}: {load.words}'
+
+
+def _open_rounds(unit: Spec) -> Iterator[str]:
+    """The sleeps of which it is not known how often they come while others wait."""
+    for wait in long_sleep.of_unknown_rounds(Context(unit)):
+        yield (
+            f'{wait.caller.display_name} sleeps {wait.block.seconds:g} s in each round of a loop '
+            f'({_in_file(wait.place)}), how often is not known'
+        )
 
 
 def _open_pauses(unit: Spec) -> Iterator[str]:

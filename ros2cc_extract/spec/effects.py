@@ -130,7 +130,8 @@ class Blocking:
     :param recursive: the loop is a function that calls itself: Python ends it by a RecursionError
         after ``RECURSION_LIMIT`` calls.
     :param times: how often a run waits here, as far as the rounds of loops around it are known.
-    :param or_more: a loop around it has an unknown number of rounds as well.
+    :param or_more: a loop around it has an unknown number of rounds as well; of other waits than
+        pauses, only where ``times`` is more than one.
     :param caught: the exception by which some release says that the time-out is over is caught.
     """
 

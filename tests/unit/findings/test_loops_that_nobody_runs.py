@@ -50,7 +50,7 @@ RUNS = [
     'threading.Thread(target=rclpy.spin, args=(lamp,)).start(); lamp.loop.run_forever()',
     'threading.Thread(target=rclpy.spin, args=(lamp,)).start(); '
     'lamp.loop.run_until_complete(asyncio.sleep(9999))',
-    'threading.Thread(target=lamp.loop.run_forever).start(); rclpy.spin(lamp)',
+    'threading.Thread(target=lamp.loop.run_forever, daemon=True).start(); rclpy.spin(lamp)',
 ]
 
 

@@ -30,6 +30,8 @@ from ros2cc_extract.extract.static.concurrency.waits.loops import (
     set_up_loops,
     timed_loops,
 )
+from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import exit_tests
+from ros2cc_extract.extract.static.concurrency.waits.rounds import forget_rounds
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import goes_round
 from ros2cc_extract.extract.static.program.generator_texts import yields_each_round
 from ros2cc_extract.extract.static.program.text_queries import is_recursion
@@ -192,6 +194,9 @@ class Notes(Effects):
             return
         assert isinstance(begun, polling_loops.Mark)
         polling_loops.note(self, node, frame, begun)
+        if self.world.effects is not None:
+            tests = {frame.place(part) for part in (node, *exit_tests(node))}
+            forget_rounds(self.world.effects, begun.waits, tests)
         if begun.length is not None:
             timed_loops.note(self, node, frame, begun.length, begun.waits, begun.met)
         if is_recursion(node):

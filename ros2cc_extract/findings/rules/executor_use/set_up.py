@@ -29,7 +29,9 @@ NOBODY_SPINS = Rule(
     'the wait, or what comes behind the join, or where a lock is held that the thread takes; a '
     'join before rclpy is shut down, or an end without a shutdown, where the thread runs while '
     '`rclpy.ok()` and the spin has ended by itself; the end of the program where such a thread, '
-    'or one that never checks whether to stop, is not a daemon or works for a pool; and a '
+    'or one that never checks whether to stop, is not a daemon or works for a pool; such an end '
+    'where the thread only ends by a function that `atexit` calls, or waits in its loop for what '
+    'others have stopped to give, or runs a loop of asyncio or a server that nothing stops; and a '
     '`threading.Timer` that is not a daemon and restarts itself in each run, because a `cancel` '
     'while its function runs has no effect.',
     why='`Client.call` and a loop until `future.done()` do not spin: the executor of the '
@@ -43,7 +45,8 @@ NOBODY_SPINS = Rule(
     'only with `spin_thread=True` (geometry2 0.39.1, `transform_listener.py`). '
     'The interpreter joins threads '
     'that are not daemons, and those of pools (CPython 3.12, `threading.py`, `_shutdown`; '
-    '`concurrent/futures/thread.py`, `_python_exit`); measured: such a program outlives Ctrl-C.',
+    '`concurrent/futures/thread.py`, `_python_exit`); measured: such a program outlives Ctrl-C, '
+    'and it calls the functions of `atexit` behind the threads (CPython 3.11).',
     bad="""\
 def main():
     rclpy.init()

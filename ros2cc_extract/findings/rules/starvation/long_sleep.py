@@ -32,6 +32,8 @@ LONG_SLEEP_S = 1.0
 MISSED = 5
 """So many runs that a timer misses make a shorter sleep long too, from ``SHORTEST_S`` on."""
 SHORTEST_S = 0.1
+MANY_ROUNDS = 100
+"""So many rounds of a loop, where their number is not known, may come together: our choice."""
 LISTED = 5
 """How many of the other sleeps are shown."""
 
@@ -57,6 +59,18 @@ def find(context: Context) -> Iterator[Hit]:
     for hold in long_holds(context, LONG_SLEEP_S):
         if hold.wait.caller.name not in reported:
             yield _of_lock(hold)
+
+
+def of_unknown_rounds(context: Context) -> Iterator[Wait]:
+    """The sleeps in loops of which nobody knows how long they hold up others, each once."""
+    for wait in waits_of(context):
+        if not (wait.block.or_more and _is_sleep(wait)) or wait.block.suspends:
+            continue
+        held_up = _held_up(wait.caller, context)
+        is_held = held_up is not None and any(c.name != wait.caller.name for c in held_up[1])
+        most = seconds_of(wait) * MANY_ROUNDS
+        if is_held and _is_pause(wait) and most >= _long_for_timers_s(wait.caller, context):
+            yield wait
 
 
 def _is_told_of_group(caller: Callback, context: Context) -> bool:

@@ -7,16 +7,17 @@ from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Severity
 from ros2cc_extract.findings.base.rule import Context, Hit, Rule
-from ros2cc_extract.findings.base.wording import made_at, shown
+from ros2cc_extract.findings.base.wording import listing, made_at, shown
 from ros2cc_extract.findings.rules.starvation import group_overload, long_sleep
 from ros2cc_extract.findings.rules.starvation.group_overload import asks, place_of
-from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.effects import OUTSIDE, PAUSES, Blocking
 from ros2cc_extract.spec.model import Callback, Spec
 from ros2cc_extract.verify.results.load import Load, LoadKind, Serving, demands_of, load_of
 from ros2cc_extract.verify.results.rates import Demand, least_slept_s
 
 MOST_RUNS = 0.9
 """A callback with this share of its runs, or more, is served well enough: our choice."""
+_SLEEP = 'time.sleep'
 _LATE = (LoadKind.DEGRADED, LoadKind.STARVED)
 
 
@@ -29,8 +30,26 @@ def find(context: Context) -> Iterator[Hit]:
             yield hit
     for hit in _hits(context, _with_branches(context.unit), _LATE):
         if reported.isdisjoint(hit.subjects):
-            often = hit.message + '; so it is while its runs come to this sleep'
-            yield replace(hit, message=often, severity=Severity.NOTE)
+            busy = [context.by_name[name] for name in hit.subjects]
+            # One that waits for nothing but its own next message or byte does no harm.
+            if hit.severity is None or not _open_waits(busy):
+                yield _of_branches(hit, busy)
+
+
+def _open_waits(busy: Sequence[Callback]) -> list[Blocking]:
+    longest = [_longest_open(callback) for callback in busy]
+    return [each for each in longest if each is not None and each.call not in PAUSES]
+
+
+def _of_branches(hit: Hit, busy: Sequence[Callback]) -> Hit:
+    """A note at the sleep, or at the wait with a time-out, that makes the difference."""
+    waits = _open_waits(busy)
+    when = 'while its runs come to this sleep'
+    if waits:
+        calls = dict.fromkeys(each.call for each in waits)
+        when = f'while nothing comes within the time-out of {listing(calls)}'
+        hit = replace(hit, place=waits[-1].source or hit.place)
+    return replace(hit, message=f'{hit.message}; so it is {when}', severity=Severity.NOTE)
 
 
 def _hits(context: Context, unit: Spec, late: Collection[LoadKind]) -> Iterator[Hit]:
@@ -50,21 +69,35 @@ def _hits(context: Context, unit: Spec, late: Collection[LoadKind]) -> Iterator[
 
 
 def _with_branches(unit: Spec) -> Spec:
-    """The unit as it is while each callback comes to the longest sleep that a branch may skip."""
+    """
+    The unit as it is while each callback comes to the longest sleep that a branch may skip.
+
+    A wait for a device or another program is one while nothing comes.
+    """
     return replace(unit, callbacks=tuple(map(_as_if_taken, unit.callbacks)))
 
 
 def _as_if_taken(callback: Callback) -> Callback:
-    skipped = [b for b in callback.blocking if b.conditional]
-    longest = max(skipped, key=lambda block: least_slept_s([_taken(block)]), default=None)
+    longest = _longest_open(callback)
     if longest is None:
         return callback
     blocking = (_taken(block) if block is longest else block for block in callback.blocking)
     return replace(callback, blocking=tuple(blocking))
 
 
+def _longest_open(callback: Callback) -> Blocking | None:
+    waits = [b for b in callback.blocking if b.conditional or _is_of_others(b)]
+    return max(waits, key=lambda block: least_slept_s([_taken(block)]), default=None)
+
+
+def _is_of_others(block: Blocking) -> bool:
+    is_outside = bool(block.wakers) and all(waker.by == OUTSIDE for waker in block.wakers)
+    return is_outside and isinstance(block.seconds, (int, float)) and not block.suspends
+
+
 def _taken(block: Blocking) -> Blocking:
-    return replace(block, conditional=False)
+    call = _SLEEP if _is_of_others(block) else block.call
+    return replace(block, call=call, conditional=False)
 
 
 def _reported_hits(context: Context) -> Iterator[Hit]:
@@ -116,7 +149,8 @@ RULE = Rule(
     'periods. Periods and durations are those of `verify --profile rclpy`: written by hand, '
     'measured in a run, or read from timers and sleeps in the source, which only make it worse '
     'where more is done. A sleep that a branch may skip gives a note: so it is while the runs '
-    'come to it; so does one by which nobody else is late. A single long sleep is CC201, a '
+    'come to it; so does a wait with a time-out for a device or another program, for which '
+    'nothing may come; so does one by which nobody else is late. A single long sleep is CC201, a '
     'callback that never runs CC202.',
     why='One thread serves in turns all that is ready: the slowest sets the pace. Source: rclpy '
     '7.1.6 and 9.1.2, `executors.py` (`_wait_for_ready_callbacks`). Measured on both: a timer '

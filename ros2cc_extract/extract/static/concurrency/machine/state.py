@@ -303,6 +303,8 @@ class ConcurrentWorld(World):
     :param asked_messages: the subscriptions that bring what was asked for: the time of simulated
         clocks, transforms.
     :param over: what it has ended.
+    :param joined_by_exit: identities of the threads that the interpreter has waited for, where
+        what is registered for its end is followed.
     """
 
     activity: ActivityState | None = None
@@ -362,6 +364,7 @@ class ConcurrentWorld(World):
     asked_messages: list[Doer] = field(default_factory=list)
     over: list[Over] = field(default_factory=list)
     timed_joins: list[TimedJoin] = field(default_factory=list)
+    joined_by_exit: frozenset[int] = frozenset()
     after_spin: bool = False
     on_loop: bool = False
     forked: Place | None = None

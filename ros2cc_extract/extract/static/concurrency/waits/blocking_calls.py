@@ -144,7 +144,7 @@ class Waits(ConcurrentMachine):
             only_if=only_if(world),
             repeats=_is_in_a_loop_of_a_hold(world),
             times=world.times,
-            or_more=world.times > 1 and world.open_loops > 0,
+            or_more=(world.times > 1 or name in PAUSES) and world.open_loops > 0,
             caught=seconds is not None and _is_caught(row.raises, world),
         )
         return block, thing

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
@@ -173,6 +174,8 @@ def _awaited_by_asyncio(place: Place) -> Diagnostic:
 def note_join(world: ConcurrentWorld, thread: Value, place: Place) -> None:
     """The program, which no executor runs, waits for the end of ``thread``."""
     is_set_up = world.effects is None or world.activity is not None
+    if id(thread) in world.joined_by_exit:
+        return
     if isinstance(thread, Instance) and world.is_program and is_set_up and not world.second_pass:
         is_late = world.after_spin or bool(world.spins_begun)
         wait = OutsideWait(JOIN, thread, place, world.in_thread, (), is_late, tuple(world.over))
@@ -186,10 +189,20 @@ def note_over(world: ConcurrentWorld, what: Value | None) -> None:
         world.over.append(Over(what, world.path, world.spins_begun))
 
 
+@contextmanager
+def joined_by_exit(world: ConcurrentWorld, threads: Iterable[Value]) -> Iterator[None]:
+    """Follow inside what the interpreter does when it has waited for ``threads``."""
+    world.joined_by_exit = frozenset(id(each) for each in threads if isinstance(each, Instance))
+    try:
+        yield
+    finally:
+        world.joined_by_exit = frozenset()
+
+
 def ended_by(world: ConcurrentWorld) -> frozenset[int]:
     """The threads that the program has surely waited for by now, by identity."""
     sure = (over.what for over in world.over if is_behind(over.path, world.path))
-    return frozenset(id(what) for what in sure if what is not None)
+    return frozenset(id(what) for what in sure if what is not None) | world.joined_by_exit
 
 
 def note_write(world: ConcurrentWorld, shown: str) -> None:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.machine.wake_operations import EntityRef
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.machine.world import RECENT
-from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.source_locations import Place
+from ros2cc_extract.spec.effects import PAUSES, Blocking
 
 
 def note_round(
@@ -29,6 +31,20 @@ def note_round(
     effects.rounds[number] = {current}
     effects.met.append((number, block.times))
     effects.blocking.append(block)
+
+
+def forget_rounds(effects: EffectLog, first: int, tests: Collection[Place]) -> None:
+    """
+    How often a loop sleeps that waits as a whole is how long that wait lasts.
+
+    :param first: where the waits of its rounds begin.
+    :param tests: where the loop stands, and what it asks.
+    """
+    inside = effects.blocking[first:]
+    if any(block.source in tests and block.call not in PAUSES for block in inside):
+        effects.blocking[first:] = [
+            replace(block, or_more=block.or_more and block.times > 1) for block in inside
+        ]
 
 
 def _is_same_wait(one: Blocking, other: Blocking) -> bool:

@@ -32,7 +32,7 @@ _METHODS: dict[str, Word] = {
     **dict.fromkeys(CHANGING_METHODS, Word.WRITE),
 }
 
-_BY_TEXT = frozenset(['getattr', 'eval', 'exec', 'methodcaller', 'attrgetter'])
+FINDS_BY_TEXT = frozenset(['getattr', 'eval', 'exec', 'methodcaller', 'attrgetter'])
 """They find a function by a text."""
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 _Function = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
@@ -95,7 +95,7 @@ def _is_dead(world: ConcurrentWorld, function: str) -> bool:
     if not function or not world.is_program:
         return False
     texts = [noted_on(tree, 'mentioned', _mentioned) for tree, _ in world.files]
-    return not any(function in text or not _BY_TEXT.isdisjoint(text) for text in texts)
+    return not any(function in text or not FINDS_BY_TEXT.isdisjoint(text) for text in texts)
 
 
 def may_be_called(world: ConcurrentWorld, method: str) -> bool:

@@ -21,6 +21,7 @@ from ros2cc_extract.extract.static.concurrency.machine.wake_operations import (
     LoopTouch,
 )
 from ros2cc_extract.extract.static.concurrency.waits import loop_tasks
+from ros2cc_extract.extract.static.concurrency.waits.endless_runs import note_endless_run
 from ros2cc_extract.extract.static.libraries.standard.futures import (
     LOOP,
     RUNS,
@@ -300,6 +301,7 @@ def _run_forever(machine: ConcurrentMachine, receiver: Value, call: Call) -> Val
     _note_run(machine, receiver, call.place)
     if machine.world.activity is not None:
         machine.world.activity.loops = True
+    note_endless_run(machine.world, receiver, call.place, 'stop')
     return NONE
 
 

@@ -13,6 +13,7 @@ from functools import partial
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.waits.endless_runs import note_endless_run
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.objects.loops import counted
@@ -53,6 +54,11 @@ def _serve(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     return NONE
 
 
+def _serve_forever(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    note_endless_run(machine.world, receiver, call.place, 'shutdown')
+    return _serve(machine, receiver, call)
+
+
 def _made(handler: Value, call: Call) -> tuple[Class, Call] | None:
     """The class of a handler, and how it is called for a request; ``partial`` gives it more."""
     if isinstance(handler, Class):
@@ -85,7 +91,7 @@ def _methods(machine: ConcurrentMachine, cls: Class, server: Value, call: Call) 
 _SERVER = LibraryClass(
     state=lambda machine, instance: PlainState('server', place=instance.place),
     init=_init,
-    methods={'serve_forever': _serve, 'handle_request': _serve},
+    methods={'serve_forever': _serve_forever, 'handle_request': _serve},
 )
 
 TABLE = Library(

@@ -100,7 +100,7 @@ def never_joined(
             goes_round = goes_round and not was_reported
             why = why_for_ever(block, state, wait, world, spun)
             is_sure = goes_round or not (wait.is_late or block.conditional)
-            if why is not None and (is_sure or why.startswith(_BEHIND)):
+            if why is not None and (is_sure or why.startswith(BEHIND)):
                 yield _diagnostic(wait, block, why)
                 return
 
@@ -126,7 +126,8 @@ def is_reported(block: Blocking, state: ActivityState, wait: OutsideWait, world:
 
 def _awaited_before(wait: OutsideWait, world: RosWorld) -> Iterator[Instance]:
     """What the program has waited for on its way to ``wait`` on every branch."""
-    for each in world.outside[: world.outside.index(wait)]:
+    before = world.outside.index(wait) if wait in world.outside else None
+    for each in world.outside[:before]:
         is_before = each.call != JOIN and not each.in_thread and not wait.in_thread
         is_sure = wait.path[: len(each.path)] == each.path
         thing = each.client
@@ -144,10 +145,15 @@ def comes_back(block: Blocking, state: ActivityState, world: RosWorld) -> bool:
         return True
     resource = block.resource
     is_queue = isinstance(resource, ResourceRef) and resource.ended_by == {Word.PUT}
-    if not is_queue or way_of(block) not in state.effects.looped or not _leaves(state):
-        return False
-    wakings = world.wakings.get(resource.number, ())  # type: ignore[union-attr]
-    return not any(waking.is_sign for waking in wakings if waking.word is Word.PUT)
+    is_in_loop = way_of(block) in state.effects.looped
+    return is_queue and is_in_loop and _leaves(state) and not may_leave(block, state, world)
+
+
+def may_leave(block: Blocking, state: ActivityState, world: RosWorld) -> bool:
+    """Whether the thread may end for something that it takes, as it looks like a sign to do so."""
+    resource = block.resource
+    wakings = world.wakings.get(resource.number, ()) if isinstance(resource, ResourceRef) else ()
+    return _leaves(state) and any(w.is_sign for w in wakings if w.word is Word.PUT)
 
 
 def why_for_ever(
@@ -164,12 +170,12 @@ def why_for_ever(
         return _why_asleep(block, wait, world)
     asked = _asked(block, world)
     if asked is not None and wait.is_late:  # before the spin see ``unserved_threads``
-        return None if any(asked.node is each for each in spun) else _NOT_SPUN
+        return None if any(asked.node is each for each in spun) else NOT_SPUN
     resource = block.resource
     if isinstance(resource, DataRef) and wait.is_late:
         is_for_good = block.call == WORKING_LOOP and resource.minds_nothing
         is_written = _is_written(resource, wait, world)
-        return _NEVER_CLEARED if is_for_good and not is_written else None
+        return NEVER_CLEARED if is_for_good and not is_written else None
     if not isinstance(resource, ResourceRef) or resource.asked:
         return None
     ending = [w for w in world.wakings.get(resource.number, ()) if w.word in resource.ended_by]
@@ -180,12 +186,15 @@ def why_for_ever(
         world, str(resource), resource.ended_by, resource.made
     )
     if ending and not mine and not is_open:
-        return f'{_BEHIND} ({ending[0].place})'
+        return f'{BEHIND} ({ending[0].place})'
     if is_open or not mine or any(node is each for node in served for each in spun):
         return None
+    is_spent = others and not served and _are_spent(others, state)
+    if is_spent and wait.is_late and not may_leave(block, state, world):
+        return _SPENT
     if others and not _have_given(others, state, wait):
         return None
-    return _NOT_SPUN if served else 'and the thread that would end that has ended'
+    return NOT_SPUN if served else 'and the thread that would end that has ended'
 
 
 def _is_written(data: DataRef, wait: OutsideWait, world: RosWorld) -> bool:
@@ -224,7 +233,7 @@ def _why_asleep(block: Blocking, wait: OutsideWait, world: RosWorld) -> str | No
         _waits_itself(s, wait, world) or any(s.executor is each for each in stopped)
         for s in serving
     )
-    return _NOT_SPUN if serving and is_stopped else None
+    return NOT_SPUN if serving and is_stopped else None
 
 
 def _waits_itself(spin: Spin, wait: OutsideWait, world: RosWorld) -> bool:
@@ -255,6 +264,19 @@ def _have_given(wakings: Sequence[Waking], taker: ActivityState, wait: OutsideWa
     return is_one and are_over and not any(map(_leaves, (*givers, taker)))
 
 
+def _are_spent(wakings: Sequence[Waking], taker: ActivityState) -> bool:
+    """Whether other threads give a known number of times, each once started."""
+    givers = [w.by for w in wakings if isinstance(w.by, ActivityState) and not w.in_loop]
+    if len(givers) < len(wakings) or any(w.word is not Word.PUT for w in wakings):
+        return False
+    return all(_runs_once(giver) and giver is not taker for giver in givers)
+
+
+def _runs_once(state: ActivityState) -> bool:
+    is_one = state.count == 1 and len(state.starts) == 1 and state.starts[0].by is None
+    return is_one and not (state.loops or state.overlaps or state.serves or state.on_loop)
+
+
 def _leaves(state: ActivityState) -> bool:
     """Whether its text has another end than that of its loop, or is not known."""
     target = state.target
@@ -271,14 +293,15 @@ def _is_way_out(part: ast.AST) -> bool:
     return isinstance(part, (ast.Break, ast.Return))
 
 
-_BEHIND = 'and what would end that comes behind the join'
-_NEVER_CLEARED = 'and nobody ever writes that'
-_NOT_SPUN = 'and nothing spins the node whose callback would end that'
+_SPENT = 'and the thread that would end that gives no more by then'
+BEHIND = 'and what would end that comes behind the join'
+NEVER_CLEARED = 'and nobody ever writes that'
+NOT_SPUN = 'and nothing spins the node whose callback would end that'
 
 
 def _diagnostic(wait: OutsideWait, block: Blocking, why: str) -> Diagnostic:
     at = f' ({block.source})' if block.source is not None else ''
-    when = '' if why != _NOT_SPUN else ' any more' if wait.is_late else ' meanwhile'
+    when = '' if why != NOT_SPUN else ' any more' if wait.is_late else ' meanwhile'
     may = 'it may wait' if wait.is_late else 'it waits'
     awaited = 'a timer' if block.call == RATE else block.resource or 'an answer'
     return Diagnostic(

@@ -14,13 +14,19 @@ from collections.abc import Callable, Iterator, Sequence
 
 from ros2cc_extract.diagnostics import Diagnostic, Severity
 from ros2cc_extract.extract.static.concurrency.machine.state import ActivityState, OutsideWait
-from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN
+from ros2cc_extract.extract.static.concurrency.waits.outside_waits import JOIN, in_words
 from ros2cc_extract.extract.static.libraries.rclpy.machine.end_operations import executor_of
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
+from ros2cc_extract.extract.static.python.machine.recorded_effects import way_of
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.extract.static.units.whole_program.joined_threads import (
+    BEHIND,
+    NEVER_CLEARED,
+    NOT_SPUN,
     comes_back,
+    is_reported,
+    may_leave,
     why_for_ever,
 )
 from ros2cc_extract.extract.static.units.whole_program.threads_until_shutdown import (
@@ -28,7 +34,7 @@ from ros2cc_extract.extract.static.units.whole_program.threads_until_shutdown im
     runs_on,
 )
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import Blocking
+from ros2cc_extract.spec.effects import WORKING_LOOP, Blocking
 from ros2cc_extract.spec.model import ActivityKind
 
 _ENDING_AT_ONCE = frozenset({'_exit', 'abort', 'kill', 'killpg', 'execv'})
@@ -60,9 +66,9 @@ def kept_at_exit(world: RosWorld, spun_beside: Serving) -> Iterator[Diagnostic]:
             exit_wait = OutsideWait(
                 JOIN, runner, state.place, in_thread=False, is_late=True, over=tuple(world.over)
             )
-            block = _stuck_block(state, exit_wait, world, spun_beside(exit_wait))
-            if block is not None:
-                yield _diagnostic(state, block)
+            found = next(_stuck_blocks(state, exit_wait, world, spun_beside(exit_wait)), None)
+            if found is not None:
+                yield _diagnostic(state, *found)
                 break
 
 
@@ -111,14 +117,24 @@ def _inherits(state: ActivityState, world: RosWorld) -> bool:
     return False
 
 
-def _stuck_block(
+def _stuck_blocks(
     state: ActivityState, wait: OutsideWait, world: RosWorld, spun: Sequence[Instance]
-) -> Blocking | None:
-    waits = (
-        b for b in state.effects.blocking if b.escapes is None and comes_back(b, state, world)
-    )
-    stuck = (b for b in waits if why_for_ever(b, state, wait, world, spun) is not None)
-    return next(stuck, None)
+) -> Iterator[tuple[Blocking, str]]:
+    """The waits that keep it, and why."""
+    loops = [each for each in state.effects.blocking if each.call == WORKING_LOOP]
+    for block in state.effects.blocking:
+        why = why_for_ever(block, state, wait, world, spun) if block.escapes is None else None
+        if why is None:
+            continue
+        # In a loop that asks whether to go on it stands in the wait again before it asks.
+        goes_round = bool(loops) and block not in loops and way_of(block) in state.effects.looped
+        is_over = may_leave(block, state, world) or is_reported(block, state, wait, world)
+        goes_round = goes_round and not is_over
+        is_for_good = why == NEVER_CLEARED or why.startswith(BEHIND)
+        # A publisher raises when rclpy is shut down, which ends a loop.
+        is_passed = block.conditional or (block in loops and state.effects.publishes)
+        if comes_back(block, state, world) or goes_round or (is_for_good and not is_passed):
+            yield block, _BY_HOOKS if why.startswith(BEHIND) else why
 
 
 def _endless(state: ActivityState, loop: Place) -> Diagnostic:
@@ -128,7 +144,8 @@ def _endless(state: ActivityState, loop: Place) -> Diagnostic:
         place=state.place,
         message=f'the program ends only when {_who(state)} has ended; which runs a loop '
         f'({loop}) that nothing ends: the program never exits',
-        help=f'ask for rclpy.ok() or a flag in the loop; or {_daemon(state)}',
+        help='ask for rclpy.ok() or a flag in the loop, or stop what it runs there; or '
+        f'{_daemon(state)}',
     )
 
 
@@ -165,15 +182,24 @@ def _daemon(state: ActivityState) -> str:
     return 'run it in a daemon thread' if is_pool else 'start it with daemon=True'
 
 
-def _diagnostic(state: ActivityState, block: Blocking) -> Diagnostic:
+def _diagnostic(state: ActivityState, block: Blocking, why: str) -> Diagnostic:
     at = f' ({block.source})' if block.source is not None else ''
+    still = ' any more' if why == NOT_SPUN else ''
+    call = f'a {block.call}' if block.call == WORKING_LOOP else in_words(block.call)
+    help_text = _WAKE if why != _BY_HOOKS else 'end it when the spin is over, and not by `atexit`'
     return Diagnostic(
         severity=Severity.WARNING,
         slug='nobody-spins',
         place=state.place,
         message=f'the program ends only when {_who(state)} has ended; which waits in '
-        f'{block.call} for {block.resource or "an answer"}{at} while nothing spins the node '
-        'whose callback would end that any more: the program may never exit',
-        help='wake it when the spin is over, by a last item or a flag that it asks for, or give '
-        f'its wait a time-out; or {_daemon(state)}',
+        f'{call} for {block.resource or "an answer"}{at}, {why}{still}: '
+        'the program may never exit',
+        help=f'{help_text}; or {_daemon(state)}',
     )
+
+
+_BY_HOOKS = 'and only a function of `atexit` ends that, which the interpreter calls behind it'
+_WAKE = (
+    'wake it when the spin is over, by a last item or a flag that it asks for, or give its wait a '
+    'time-out'
+)

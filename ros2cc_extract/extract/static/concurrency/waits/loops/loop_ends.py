@@ -14,6 +14,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.local_copies import (
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     exit_tests,
     is_neutral,
+    lines_that_leave,
     name_of,
     names_assigned,
     names_grown,
@@ -38,6 +39,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
+from ros2cc_extract.spec.effects import Access
 
 _OF_TEXTS = frozenset(['strip', 'lower', 'upper', 'startswith', 'endswith', 'split'])
 _OF_COLLECTIONS = frozenset(
@@ -89,6 +91,23 @@ def seen_by(machine: ConcurrentMachine, tests: Iterable[ast.expr], frame: Frame)
         return Seen(names, frozenset(looked.holders), next(iter(looked.outside), None))
     finally:
         world.effects = noted
+
+
+def written_by_rounds(
+    effects: EffectLog, first: int, loop: ast.While, frame: Frame
+) -> frozenset[str]:
+    """
+    The data that a round writes behind which there may be another one.
+
+    :param first: where the writes of the round begin.
+    """
+    file, left = frame.place(loop).file, lines_that_leave(loop)
+
+    def leaves(access: Access) -> bool:
+        ways = (place for place in (access.source, *access.chain) if place is not None)
+        return any(place.file == file and place.line in left for place in ways)
+
+    return frozenset(access.name for access in effects.writes[first:] if not leaves(access))
 
 
 def exits_of(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> list[ast.expr]:

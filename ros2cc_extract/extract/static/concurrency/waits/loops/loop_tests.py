@@ -81,6 +81,15 @@ def leaving_branches(loop: ast.While) -> Iterator[ast.If]:
             yield part
 
 
+def lines_that_leave(loop: ast.While) -> frozenset[int]:
+    """The lines of the branches behind which there is no other round."""
+    arms = (arm for part in leaving_branches(loop) for arm in (part.body, part.orelse))
+    left = (arm for arm in arms if arm and isinstance(arm[-1], LEAVES))
+    return frozenset(
+        line for arm in left for line in range(arm[0].lineno, (arm[-1].end_lineno or 0) + 1)
+    )
+
+
 def only_exit(loop: ast.While) -> ast.expr | None:
     """
     The one test that ends a loop, if there is one: its own that fails, or one inside that holds.

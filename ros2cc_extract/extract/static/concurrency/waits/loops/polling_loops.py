@@ -33,6 +33,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import (
     only_passes_time,
     seen_by,
     tests_of_data,
+    written_by_rounds,
 )
 from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     asks_for_cancel,
@@ -332,7 +333,7 @@ def note(machine: ConcurrentMachine, loop: ast.While, frame: Frame, before: Mark
         return
     asked_of_data = [test for test in tests if not asks_object(test)]
     seen = seen_by(machine, tests_of_data(machine, asked_of_data, loop, frame), frame)
-    written = {access.name for access in effects.writes[before.writes :]}
+    written = written_by_rounds(effects, before.writes, loop, frame)
     if seen.names & (written | set(effects.own[before.own :])):
         return
     known = len(effects.blocking)

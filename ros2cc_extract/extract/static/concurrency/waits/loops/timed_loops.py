@@ -19,7 +19,7 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Effect
 from ros2cc_extract.extract.static.python.values.values import Const
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import BUSY_LOOP, PAUSES, POLLING_LOOP
+from ros2cc_extract.spec.effects import BUSY_LOOP, OUTSIDE, PAUSES, POLLING_LOOP
 
 _CLOCKS = CLOCKS - {'time_ns', 'get_clock'}
 _NANO = 1e-9
@@ -35,16 +35,31 @@ _GOES_ON = 'ok'
 
 @dataclass(frozen=True)
 class Length:
-    """Of a loop: the seconds or the rounds that it takes at most."""
+    """
+    Of a loop: the seconds or the rounds that it takes at most.
+
+    :param is_most: other tests may end it sooner.
+    """
 
     seconds: float | None = None
     rounds: int | None = None
+    is_most: bool = False
 
 
 def length_of(machine: ConcurrentMachine, loop: ast.While, frame: Frame) -> Length | None:
-    """Before the first round; ``None`` where more decides, or it is not known."""
-    test = _only_test(loop.test)
-    if test is None or machine.world.effects is None:
+    """Before the first round; ``None`` where it is not known."""
+    tests = _tests(loop.test)
+    if machine.world.effects is None:
+        return None
+    known = (_length_by(machine, loop, test, frame) for test in tests)
+    length = next((each for each in known if each is not None), None)
+    return length if length is None or len(tests) == 1 else replace(length, is_most=True)
+
+
+def _length_by(
+    machine: ConcurrentMachine, loop: ast.While, test: ast.expr, frame: Frame
+) -> Length | None:
+    if not isinstance(test, ast.Compare) or len(test.ops) != 1:
         return None
     less, more = test.left, test.comparators[0]
     if isinstance(test.ops[0], (ast.Gt, ast.GtE)):
@@ -82,12 +97,14 @@ def note(
     inside, place = effects.blocking[first:], frame.place(loop)
     tests = {frame.place(part) for part in _whole(loop)}
     if any(block.source in tests for block in inside):
+        if length.is_most:
+            return
         for number, block in enumerate(inside, first):
             ends_otherwise = isinstance(block.seconds, Unknown) and length.seconds is not None
             if block.call == POLLING_LOOP and block.source in tests and ends_otherwise:
                 effects.blocking[number] = replace(block, seconds=length.seconds)
         return  # it waits for data as a whole
-    pauses = _pauses(effects, first_met)
+    pauses = _pauses(machine, effects, first_met)
     slept = sum(
         block.seconds * often
         for block, often in ((effects.blocking[number], often) for number, often in pauses)
@@ -101,18 +118,34 @@ def note(
         for number, often in pauses:
             block = effects.blocking[number]
             times = block.times + often * (max(1, rounds) - 1)
-            or_more = times > 1 and machine.world.open_loops > 0
-            effects.blocking[number] = replace(block, times=times, or_more=or_more)
+            or_more = machine.world.open_loops > 0
+            is_sleep = block.call in PAUSES
+            is_skipped = block.conditional or (length.is_most and rounds > 1 and is_sleep)
+            effects.blocking[number] = replace(
+                block, times=times, or_more=or_more, conditional=is_skipped
+            )
+    elif length.is_most:
+        return
     elif length.seconds is not None and not inside and len(effects.met) == first_met:
         machine.note_blocking(BUSY_LOOP, None, Const(length.seconds), place)
 
 
-def _pauses(effects: EffectLog, first_met: int) -> list[tuple[int, int]]:
-    """The sleeps of a round, by their number, and how often it sleeps there."""
+def _pauses(
+    machine: ConcurrentMachine, effects: EffectLog, first_met: int
+) -> list[tuple[int, int]]:
+    """
+    The sleeps of a round, by their number, and how often it sleeps there.
+
+    So do waits for a device or another program, where nothing comes in their time.
+    """
     often: dict[int, int] = {}
     for number, times in effects.met[first_met:]:
         block = effects.blocking[number] if number < len(effects.blocking) else None
-        if block is not None and block.call in PAUSES and not block.suspends:
+        if block is None or block.suspends:
+            continue
+        row = machine.model.waits.get(block.call)
+        is_of_others = row is not None and row.always == (OUTSIDE,)
+        if block.call in PAUSES or (is_of_others and isinstance(block.seconds, (int, float))):
             often[number] = often.get(number, 0) + times
     return list(often.items())
 
@@ -121,12 +154,11 @@ def _whole(loop: ast.While) -> tuple[ast.AST, ...]:
     return loop, *(part for part in walk(loop.test) if isinstance(part, ast.expr))
 
 
-def _only_test(test: ast.expr) -> ast.Compare | None:
+def _tests(test: ast.expr) -> list[ast.expr]:
+    """What all must hold for another round."""
     is_all = isinstance(test, ast.BoolOp) and isinstance(test.op, ast.And)
     parts = test.values if is_all and isinstance(test, ast.BoolOp) else [test]
-    asking = [part for part in parts if not _asks_whether_it_goes_on(part)]
-    only = asking[0] if len(asking) == 1 else None
-    return only if isinstance(only, ast.Compare) and len(only.ops) == 1 else None
+    return [part for part in parts if not _asks_whether_it_goes_on(part)]
 
 
 def _asks_whether_it_goes_on(test: ast.expr) -> bool:
