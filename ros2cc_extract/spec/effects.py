@@ -243,6 +243,8 @@ class Access:
         ``FOUND_THIS``, or behind
         ``FOUND_OTHER`` where it is something else.
     :param constant: true for a write that rests on a test and stores a constant, as of a flag.
+    :param literal: true for a write of a constant that stands there in the text, and that is not
+        false: whoever comes there stores the same.
     :param compared: true for a read that only asks whether it is still what the code has in a
         name of its own.
     :param fresh: true for a read to which no way leads on which the run has stored that data and
@@ -275,6 +277,7 @@ class Access:
     fills_none: bool = False
     found: str | None = None
     constant: bool = False
+    literal: bool = False
     compared: bool = False
     fresh: bool = False
     admits: bool = False

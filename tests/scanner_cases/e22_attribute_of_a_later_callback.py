@@ -50,3 +50,4 @@ if __name__ == '__main__':
 #     locks lock @19
 #   client other_client in a_default key=other conditional count=? when=callback
 #   ? other_client count
+#   ? a entities

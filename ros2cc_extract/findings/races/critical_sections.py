@@ -125,6 +125,13 @@ def writes_of(doer: Callback | Activity) -> Mapping[str, Sequence[Access]]:
     return found
 
 
+def store_the_same(writes: Sequence[Access]) -> bool:
+    """Whether all store one constant: nothing is lost or gained by whose it is that is read."""
+    are_false = all(write.clears for write in writes) or all(write.lowers for write in writes)
+    is_one = len({write.source for write in writes}) == 1
+    return are_false or (is_one and all(write.literal for write in writes))
+
+
 def keep_apart(one: Sequence[str], other: Sequence[str]) -> bool:
     """True when a lock is held by both, and by one of them alone."""
     bare = {lock.removesuffix(SHARED) for lock in one} & {

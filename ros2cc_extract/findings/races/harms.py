@@ -12,6 +12,7 @@ from ros2cc_extract.findings.races.critical_sections import (
     kept_between,
     read_for,
     reads_of,
+    store_the_same,
     waits,
     writes_of,
 )
@@ -135,6 +136,7 @@ def overwritten(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
                 (Use(reader, read), Use(writer, write))
                 for write in writes_of(writer).get(read.name, ())
                 if write.source == own.source
+                and not store_the_same((own, write))
                 and not keep_apart(kept, write.locks)
                 and are_unordered(Use(reader, read), Use(writer, write))
             )

@@ -16,6 +16,7 @@ from ros2cc_extract.findings.races.critical_sections import (
     keep_apart,
     kept_between,
     read_acted_on,
+    store_the_same,
     waits,
 )
 from ros2cc_extract.findings.races.uses import Use
@@ -113,8 +114,11 @@ def _stale(write: Access, writes: list[Access], callback: Callback) -> SelfRace 
 
 def _is_overwritten(read: Access, writes: list[Access], callback: Callback) -> bool:
     """Whether a run reads, after a wait, what it has written before."""
-    own = [w for w in writes if w.name == read.name and steps(w) < steps(read) and not w.update]
+    stored = [write for write in writes if write.name == read.name]
+    own = [write for write in stored if steps(write) < steps(read) and not write.update]
     last = max(own, key=steps, default=None)
     if last is None or read.compared or read.fresh or not waits(last, read, callback):
+        return False
+    if store_the_same(stored):
         return False
     return not keep_apart(kept_between(last, read, callback), last.locks)

@@ -146,6 +146,7 @@ ACCESS = record(
                 ('fills_none', 'fills_none', FLAG),
                 ('found', 'found', optional(TEXT)),
                 ('constant', 'constant', FLAG),
+                ('literal', 'literal', FLAG),
                 ('compared', 'compared', FLAG),
                 ('fresh', 'fresh', FLAG),
                 ('admits', 'admits', FLAG),

@@ -207,6 +207,7 @@ from std_msgs.msg import String
 class Benchmark(Node):
     def __init__(self):
         super().__init__('benchmark')
+        self.least = self.get_parameter('least').value
         self.create_subscription(String, 'image', self.on_image, 10)
         self.create_timer(500.0, self.start)
 

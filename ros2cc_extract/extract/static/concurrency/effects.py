@@ -177,9 +177,8 @@ class Effects(Waits):
         if is_read:
             reading.note_read(name)
         at, flows = (place, attribute or name.rpartition('.')[2]), name in reading.flowing
-        is_computed = flows or not self.world.given_from.isdisjoint((name, ITSELF))
-        is_computed = is_computed or name in reading.choices.get(at, ())
-        chosen = is_content and is_computed
+        choices = flows or name in reading.choices.get(at, ())
+        chosen = is_content and (choices or bool(self.world.given_from & {name, ITSELF}))
         is_tested = reading.governs(name, self.world.path)
         is_tested = is_tested or (is_content and reading.leads_to(name, self.world.path))
         is_tested = is_tested and not (is_stored and refreshed.is_known(self.world, name, place))
@@ -212,6 +211,7 @@ class Effects(Waits):
             fills_none=is_stored and reading.fills_none and is_main(self.world.activity),
             found=reading.found_of(name, self.world.path) if is_stored else None,
             constant=is_stored and rests and isinstance(reading.stored, Const),
+            literal=is_stored and bool(self.world.literals.get(place)),
             joins=joins,
             akin=is_akin,
             turn=() if is_read or is_content else self._turn_of_store(),

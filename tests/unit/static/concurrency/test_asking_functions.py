@@ -10,6 +10,7 @@ from ros2cc_extract.spec.effects import Blocking
 PROGRAM = """
 import time
 import rclpy
+import rules
 from rclpy.node import Node
 from std_msgs.msg import Empty
 
@@ -62,7 +63,7 @@ def test_a_function_that_only_looks_ends_no_loop_by_itself(
 
 
 def test_a_function_that_asks_what_is_not_followed_leaves_the_end_open() -> None:
-    loop = _loop('self.is_there(level)', f'self.given_up() or {LOOKS}')
+    loop = _loop('self.is_there(level)', f'rules.given_up() or {LOOKS}')
     assert loop.seconds is None
     assert loop.escapes is not None
     assert loop.escapes.reason == 'what ends the loop: not self.is_there(level)'

@@ -17,6 +17,7 @@ class Link(Node):
     def __init__(self):
         super().__init__('link')
         self.socket = socket.create_connection(('robot', 30003))
+        self.path = self.get_parameter('path').value
         self.create_timer(0.1, self.on_timer)
 
     def on_timer(self):
