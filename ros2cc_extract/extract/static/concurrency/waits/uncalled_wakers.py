@@ -161,6 +161,17 @@ def data_is_written_elsewhere(world: ConcurrentWorld, names: frozenset[str]) -> 
     return known or closure_cells.why_written_elsewhere(world, names)
 
 
+def written_behind_constructors(world: ConcurrentWorld, name: str) -> bool:
+    """Whether a function that is no constructor writes an attribute of that name, or its items."""
+    attribute = name.rpartition('.')[2]
+    noted = (noted_on(tree, 'waking_operations', _operations) for tree, _ in world.files)
+    return any(
+        each.name == attribute and each.word is Word.WRITE and each.called != '__init__'
+        for operations in noted
+        for each in operations
+    )
+
+
 def is_handed_over(
     world: ConcurrentWorld, holders: frozenset[tuple[Instance, str]]
 ) -> Unknown | None:

@@ -22,6 +22,9 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_tests import (
     owners,
     tells_time,
 )
+from ros2cc_extract.extract.static.concurrency.waits.uncalled_wakers import (
+    written_behind_constructors,
+)
 from ros2cc_extract.extract.static.concurrency.waits.waiting_loops import is_pastime
 from ros2cc_extract.extract.static.program.text_queries import walk
 from ros2cc_extract.extract.static.python.machine.frame import Frame
@@ -39,7 +42,7 @@ from ros2cc_extract.extract.static.python.values.values import (
 )
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import Access
+from ros2cc_extract.spec.effects import OUTSIDE, Access
 
 _OF_TEXTS = frozenset(['strip', 'lower', 'upper', 'startswith', 'endswith', 'split'])
 _OF_COLLECTIONS = frozenset(
@@ -231,6 +234,24 @@ def evaluated(machine: ConcurrentMachine, node: ast.expr, frame: Frame) -> tuple
         return options_of(machine.evaluate(node, frame))
     finally:
         world.effects = noted
+
+
+def asks_outside(
+    machine: ConcurrentMachine, tests: Iterable[ast.expr], frame: Frame, seen: Seen
+) -> bool:
+    """
+    Whether a test calls code of the program that asks a device or another program.
+
+    Data may decide as well where some text writes it later than in a constructor.
+    """
+    if any(written_behind_constructors(machine.world, name) for name in seen.names):
+        return False
+    parts = (part for test in tests for part in walk(test))
+    calls = {frame.place(part) for part in parts if isinstance(part, ast.Call)}
+    effects = machine.world.effects or EffectLog()
+    asked = (b for b in effects.blocking if not calls.isdisjoint(b.chain))
+    rows = (machine.model.waits.get(block.call) for block in asked)
+    return any(row is not None and row.always == (OUTSIDE,) for row in rows)
 
 
 def asked_of_none(

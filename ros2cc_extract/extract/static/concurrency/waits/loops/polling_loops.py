@@ -28,6 +28,7 @@ from ros2cc_extract.extract.static.concurrency.waits.loops.loop_ends import (
     End,
     Seen,
     asked_of_none,
+    asks_outside,
     end_of,
     exits_of,
     only_passes_time,
@@ -443,6 +444,9 @@ def _note(
     elif (is_open or end is End.DATA or only_sleeps(loop, tests)) and not any(
         asks_for_service(test) for test in tests
     ):
+        if call == POLL and asks_outside(machine, tests, frame, seen):
+            machine.note_blocking(ANSWER_LOOP, None, None, place)
+            return
         text = ' or '.join(ast.unparse(test) for test in tests)
         unknown = Unknown(f'what ends the loop: {text}', place)
         machine.note_loop_on_data(call, unknown, None, place)
