@@ -7,6 +7,7 @@ The model of a library says what runs as a callback; here each is a ``Doer``.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import field
 from typing import Any
 
@@ -422,6 +423,11 @@ class ConcurrentWorld(World):
     def spun_in_loop(self) -> bool:
         """Whether what is followed stands in a loop that has spun, and may again."""
         return self.open_loops > 0 and self.main_spins > self.before_loop
+
+    def done_alike(self, thing: int, made_there: Iterable[int]) -> list[Waking]:
+        """What is done to objects of one place which may be the one that another run has made."""
+        others = (number for number in made_there if number not in self.apart.get(thing, ()))
+        return [waking for number in others for waking in self.wakings.get(number, ())]
 
     def begin_outermost_loop(self) -> None:
         """Keep how many spins there were: those of its rounds may come again."""

@@ -26,6 +26,7 @@ def asked_again(machine: ConcurrentMachine, call: Call) -> Iterator[None]:
     """A predicate is followed: what it reads shows nothing but whether to go on waiting."""
     effects = machine.world.effects
     if effects is None or not _only_ends_wait(machine, call):
+        machine.world.let_others_store()
         yield
         return
     begun, kept = len(effects.reads), (len(effects.writes), len(effects.own))

@@ -297,6 +297,10 @@ class World:
         """The run waits: others may store what it has stored."""
         if self.effects is not None:
             self.effects.behind = way
+        self.let_others_store()
+
+    def let_others_store(self) -> None:
+        """What the run has stored by now may be another run's from here on."""
         stored = frozenset(fact for fact in self.ready if fact[1] is Word.STORED)
         self.ready -= stored
         self._note_perhaps(frozenset((name, Word.STALE) for name, _ in stored))

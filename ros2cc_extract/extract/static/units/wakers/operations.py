@@ -84,13 +84,7 @@ def _all_of(world: RosWorld, reference: ResourceRef) -> list[Waking]:
     known = world.wakings.get(reference.number)
     if known is not None:
         return known
-    return alike(world, reference.number, reference.like)
-
-
-def alike(world: RosWorld, thing: int, made_there: Iterable[int]) -> list[Waking]:
-    """What is done to objects of one place which may be the one that another run has made."""
-    others = (number for number in made_there if number not in world.apart.get(thing, ()))
-    return [waking for number in others for waking in world.wakings.get(number, ())]
+    return world.done_alike(reference.number, reference.like)
 
 
 def _may_be_passed_on(

@@ -27,7 +27,6 @@ from ros2cc_extract.extract.static.libraries.rclpy.machine.state import (
 from ros2cc_extract.extract.static.python.machine.path_facts import Word
 from ros2cc_extract.extract.static.python.machine.recorded_effects import EffectLog
 from ros2cc_extract.extract.static.python.values.values import Const, Instance, Value, options_of
-from ros2cc_extract.extract.static.units.wakers.operations import alike
 from ros2cc_extract.extract.static.units.whole_program.joined_threads import is_over, never_joined
 from ros2cc_extract.extract.static.units.whole_program.threads_at_exit import kept_at_exit
 from ros2cc_extract.extract.static.units.whole_program.threads_until_shutdown import (
@@ -96,7 +95,7 @@ def _wakings_of(thing: Instance, world: RosWorld) -> Sequence[Waking]:
     known = world.wakings.get(id(thing))
     if known is not None:
         return known
-    return alike(world, id(thing), world.made_at.get((thing.cls, thing.place), ()))
+    return world.done_alike(id(thing), world.made_at.get((thing.cls, thing.place), ()))
 
 
 def _waits_for_ever(wait: OutsideWait, name: str, *, has_node: bool, is_meant: bool) -> Diagnostic:
