@@ -95,6 +95,18 @@ def test_a_caught_exception_is_one() -> None:
 
 
 @pytest.mark.parametrize(
+    ('imports', 'is_said'),
+    [('import scans', False), ('import scans\nfrom scans import OSError', True)],
+)
+def test_a_name_may_stand_for_another_exception(imports: str, is_said: bool) -> None:
+    text = READER.replace('import scans', imports).replace('Exception as', 'OSError as')
+    handled = text.format(each=CALL, packet=APART, handler='callback(error)')
+    units = scan_text(handled).units
+    found = findings_of(units, [], [None] * len(units))
+    assert any('waits and reads' in each.message for each in found) == is_said
+
+
+@pytest.mark.parametrize(
     ('each', 'packet'),
     [
         (CALL, IN_A_ROW),

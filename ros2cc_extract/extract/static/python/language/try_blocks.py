@@ -94,6 +94,11 @@ def _names_of(handler: ast.ExceptHandler) -> Iterator[str]:
         yield _ANYTHING if kind is None else ast.unparse(kind)
 
 
+def _own_names_of(handler: ast.ExceptHandler, frame: Frame) -> Iterator[str]:
+    """The same; nothing for a name to which the program has given another meaning."""
+    return ('' if name in frame.module.slots else name for name in _names_of(handler))
+
+
 def is_lack_uncaught(machine: Machine) -> bool:
     """Whether nobody catches that there is no such item."""
     return all(_LACKING.isdisjoint(caught) for caught in machine.world.caught)
@@ -107,7 +112,7 @@ def _run_handler(machine: Machine, handler: ast.ExceptHandler, frame: Frame) -> 
     """Run a handler; what it cannot call ends it."""
     if handler.name:
         text = handler.name
-        caught = Caught(frame.place(handler), text, _names_of(handler))
+        caught = Caught(frame.place(handler), text, _own_names_of(handler, frame))
         machine.assign(ast.Name(text, ast.Store()), caught, frame)
     held = machine.given_back_in(handler.body)
     machine.world.held = tuple(dict.fromkeys((*machine.world.held, *held)))
