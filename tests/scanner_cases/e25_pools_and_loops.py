@@ -94,3 +94,4 @@ if __name__ == '__main__':
 #   activity pool task_5 (A.task) started by bridge after 1 @32 count=?
 #     blocks Event.wait on on_in through heard @29
 #       ended by on_in @26
+# warning nobody-spins @18
