@@ -25,8 +25,8 @@ from ros2cc_extract.spec.effects import Access
 def asked_again(machine: ConcurrentMachine, call: Call) -> Iterator[None]:
     """A predicate is followed: what it reads shows nothing but whether to go on waiting."""
     effects = machine.world.effects
+    machine.world.let_others_store()
     if effects is None or not _only_ends_wait(machine, call):
-        machine.world.let_others_store()
         yield
         return
     begun, kept = len(effects.reads), (len(effects.writes), len(effects.own))
