@@ -356,8 +356,8 @@ class Effects(Waits):
                 return not is_stored and not data_kinds.is_assigned(cls, name)
             is_code = isinstance(held[0], (Function, Native, Class))
             return is_code or self.special_method(held[0], '__get__', place) is not None
-        if data_kinds.is_replaced(owner, name):
-            return False
+        if data_kinds.is_replaced(owner, name) or data_kinds.is_member(owner, value):
+            return data_kinds.is_member(owner, value)
         return any(
             isinstance(option, (Bound, Function, Native, Class))
             or (isinstance(option, Instance) and option.state is not None)

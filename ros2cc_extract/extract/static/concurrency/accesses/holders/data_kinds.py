@@ -11,6 +11,7 @@ from ros2cc_extract.extract.static.program.text_queries import (
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.world import AccessKind, World
 from ros2cc_extract.extract.static.python.values.containers import Collection
+from ros2cc_extract.extract.static.python.values.enumerations import Member
 from ros2cc_extract.extract.static.python.values.values import (
     Class,
     Const,
@@ -33,6 +34,12 @@ def is_emptied(kind: AccessKind, stored: Value | None) -> bool:
 def is_false(stored: Value | None) -> bool:
     """Whether a constant is false."""
     return isinstance(stored, Const) and not stored.value
+
+
+def is_member(owner: Value, held: object) -> bool:
+    """Whether a class holds one of its own constants there: the member of an enumeration."""
+    is_own = isinstance(held, Const) and isinstance(held.value, Member)
+    return is_own and isinstance(owner, Class)
 
 
 def holds_lock(owner: Instance) -> bool:
