@@ -247,6 +247,7 @@ class Access:
         false: whoever comes there stores the same.
     :param compared: true for a read that only asks whether it is still what the code has in a
         name of its own.
+    :param asked: true for a read by a test alone, of what the run may have stored before.
     :param fresh: true for a read to which no way leads on which the run has stored that data and
         has waited since, or by which a wait only asks anew whether it is over.
     :param admits: true for a read of a goal callback because of which it turns goals down.
@@ -279,6 +280,7 @@ class Access:
     constant: bool = False
     literal: bool = False
     compared: bool = False
+    asked: bool = False
     fresh: bool = False
     admits: bool = False
     later: bool = False

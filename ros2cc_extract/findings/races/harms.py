@@ -125,9 +125,13 @@ def _read_together(
 
 
 def overwritten(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
-    """What one has written and reads back after a wait, and the other writes in the same code."""
+    """
+    What one has written and reads back after a wait, and the other writes in the same code.
+
+    Reads by tests alone come last.
+    """
     for reader, writer in ((one, other), (other, one)):
-        for read in reader.reads:
+        for read in sorted(reader.reads, key=lambda read: read.asked):
             own = _last_write_before(read, reader)
             if own is None or read.compared or read.fresh or not waits(own, read, reader):
                 continue

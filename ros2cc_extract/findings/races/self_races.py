@@ -85,7 +85,7 @@ def _races_on(writes: list[Access], callback: Callback, is_shared: bool) -> Iter
     stored = [*plain, *chosen]
     stale = [found for write in stored if (found := _stale(write, stored, callback)) is not None]
     yield from sorted((r for r in stale if not r.is_whole), key=lambda race: not race.waits)
-    for read in () if is_shared else callback.reads:
+    for read in () if is_shared else sorted(callback.reads, key=lambda read: read.asked):
         if _is_overwritten(read, plain, callback):
             yield SelfRace(SelfRaceKind.OVERWRITTEN, callback, Use(callback, read), waits=True)
     yield from (race for race in (*lost, *stale) if race.is_whole)

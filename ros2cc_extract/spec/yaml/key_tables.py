@@ -148,6 +148,7 @@ ACCESS = record(
                 ('constant', 'constant', FLAG),
                 ('literal', 'literal', FLAG),
                 ('compared', 'compared', FLAG),
+                ('asked', 'asked', FLAG),
                 ('fresh', 'fresh', FLAG),
                 ('admits', 'admits', FLAG),
                 ('later', 'later', FLAG),

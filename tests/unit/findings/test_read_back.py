@@ -255,3 +255,23 @@ def test_the_write_the_wait_and_the_read_lie_on_one_way(body: str, is_said: bool
     assert ['and reads it here' in f.message for f in found if f.code == 'CC304'] == (
         [True] if is_said else []
     )
+
+
+@pytest.mark.parametrize(
+    ('read', 'severity'),
+    [
+        ('return self.line', Severity.WARNING),
+        ('return len(self.line)', Severity.WARNING),
+        ('if self.line: print(self.line)', Severity.WARNING),
+        ('return 1 if self.line else 2', Severity.NOTE),
+        ('if self.line: return 1', Severity.NOTE),
+        ("if not self.line or self.line == b'enc': return 1", Severity.NOTE),
+        ('assert self.line is not None', Severity.NOTE),
+    ],
+)
+def test_what_only_a_test_looks_at_may_be_anybodys(read: str, severity: Severity) -> None:
+    text = BUS.format(pause='time.sleep(0.002)', ask=BOTH).replace('return self.line', read)
+    units = scan_text(text).units
+    found = findings_of(units, [], [None] * len(units))
+    said = [f for f in found if f.code == 'CC301' and 'reads it back' in f.message]
+    assert {each.severity for each in said} == {severity}

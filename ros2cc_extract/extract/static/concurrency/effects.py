@@ -204,6 +204,7 @@ class Effects(Waits):
             rests=is_used or (rests and not (is_read or (is_stored and is_import))),
             bare=not rests and data_kinds.is_bare(self.world, is_content or at in reading.used),
             compared=is_read and at in reading.compared,
+            asked=is_read and at in reading.asked_for and name in effects.storers,
             fresh=is_read and self.world.is_fresh(name, self.stack),
             later=self._is_late(name, is_used=is_used or (is_content and is_tested), kind=kind),
             clears=is_stored and reading.stored == NONE,
@@ -346,11 +347,7 @@ class Effects(Waits):
         value = owner.slots.get(name)
         if value is None:
             cls = owner.cls if isinstance(owner, Instance) else owner
-            held = [
-                c.slots[name]
-                for c in getattr(cls, 'mro', ())
-                if isinstance(c, Class) and name in c.slots
-            ]
+            held = [c.slots[name] for c in data_kinds.classes_of(cls) if name in c.slots]
             if not held:
                 is_stored = kind in (AccessKind.WRITE, AccessKind.UPDATE)
                 return not is_stored and not data_kinds.is_assigned(cls, name)

@@ -27,6 +27,7 @@ def hit_of(race: Race, message: str = '', help_text: str = '') -> Hit:
     is_free = race.is_outside_groups or race.has_threads
     is_less = race.kind in (RaceKind.CHECK_THEN_CHANGE, RaceKind.WHOLE_UPDATE)
     is_less = is_less or (race.kind is RaceKind.CHECK_THEN_ACT and race.is_flag)
+    is_less = is_less or (race.kind is RaceKind.OVERWRITTEN and race.first.access.asked)
     is_less = is_less or (race.kind is RaceKind.TORN_STATE and not race.is_meant_whole)
     return Hit(
         place=race.first.place,
@@ -69,9 +70,10 @@ RULE = Rule(
     'Threads that the program starts, timer threads and pool tasks '
     'included, and `main` beside a thread that spins count like callbacks, on any executor. '
     'Accesses before the start of a thread or after its join, and those that exclusive '
-    'branches keep apart, are not reported. A flag that one tests and both set to constants '
-    'is only a note there. So is an update of a number with nothing but constants and names '
-    'between its read and its write (`self.n += 1`), if the other one updates it in the same '
+    'branches keep apart, are not reported. What a callback has written and reads back after a '
+    'wait is only a note if nothing but a test looks at it. A flag that one tests and both set to '
+    'constants is only a note there. So is an update of a number with nothing but constants and '
+    'names between its read and its write (`self.n += 1`), if the other one updates it in the same '
     'way or has not read it before: CPython does that in one step.',
     why='With a `MultiThreadedExecutor` callbacks of different groups, or of one reentrant '
     'group, run on different threads. CPython may switch threads between the read and the write: '

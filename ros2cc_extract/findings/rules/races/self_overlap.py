@@ -115,6 +115,7 @@ def _reported_of_others(
 def _severity(race: SelfRace, context: Context) -> Severity | None:
     is_at_once = not race.waits and not race.use.access.later
     is_less = race.is_whole or (race.kind is SelfRaceKind.STALE_READ and is_at_once)
+    is_less = is_less or (race.kind is SelfRaceKind.OVERWRITTEN and race.use.access.asked)
     return Severity.NOTE if is_less or is_quick(race.callback, context) else None
 
 

@@ -46,6 +46,7 @@ from ros2cc_extract.spec.model import When
 def decide(machine: Machine, test: ast.expr, frame: Frame) -> bool | None:
     """``bool(test)``; ``None`` when that depends, also on when it is asked."""
     before = machine.world.changing
+    machine.world.reading.note_asked(test, frame.module.file)
     value = machine.evaluate(test, frame)
     code_behind.asked_as(machine, value, 'bool', frame.place(test))
     holds = machine.truth(value)

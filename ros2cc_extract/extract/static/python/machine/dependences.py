@@ -54,6 +54,7 @@ class Reading:
     :param items: the item that is meant, by the place of the container and its attribute.
     :param choices: the shared data because of which it is that item, in the same way.
     :param used: objects that are asked for more than being there, in the same way.
+    :param asked_for: what a test only asks for its truth, or compares, in the same way.
     :param compared: what is only asked for whether it is still what the function knows.
     :param stored: the value that is being stored; ``replaced`` the one of an attribute before.
     :param is_whole: what is stored now is read and stored in one piece, see ``atomic_updates.py``.
@@ -79,6 +80,7 @@ class Reading:
     items: dict[tuple[Place, str], str] = field(default_factory=dict)
     choices: dict[tuple[Place, str], frozenset[str]] = field(default_factory=dict)
     used: set[tuple[Place, str]] = field(default_factory=set)
+    asked_for: set[tuple[Place, str]] = field(default_factory=set)
     compared: set[tuple[Place, str]] = field(default_factory=set)
     refusing: set[str] = field(default_factory=set)
     stored: Value | None = None
@@ -216,6 +218,13 @@ class Reading:
         for used in _operands(node):
             self.note_use(used, Place(file, used.lineno, used.col_offset + 1))
 
+    def note_asked(self, test: ast.expr, file: str) -> None:
+        """Note ``self.goal`` in a test of it: its value goes nowhere else."""
+        for asked in _asked_in(test):
+            name = _name_of(asked)
+            if name is not None:
+                self.asked_for.add((Place(file, asked.lineno, asked.col_offset + 1), name))
+
     def note_comparison(self, node: ast.Compare, file: str, own: Container[str]) -> None:
         """Note ``self.goal is goal``: code with this test expects others to store it."""
         left, right = node.left, node.comparators[0]
@@ -226,6 +235,21 @@ class Reading:
             if name is not None and isinstance(known, ast.Name) and known.id in own:
                 place = Place(file, asked.lineno, asked.col_offset + 1)
                 self.compared.add((place, name))
+
+
+def _asked_in(test: ast.expr) -> Iterator[ast.expr]:
+    """The operands of a test, through ``not``, ``and``, ``or`` and comparisons."""
+    if isinstance(test, ast.BoolOp):
+        parts = test.values
+    elif isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
+        parts = [test.operand]
+    elif isinstance(test, ast.Compare):
+        parts = [test.left, *test.comparators]
+    else:
+        yield test
+        return
+    for part in parts:
+        yield from _asked_in(part)
 
 
 def _operands(node: ast.BinOp | ast.Compare) -> Iterator[ast.expr]:

@@ -56,16 +56,17 @@ def holds_lock(owner: Instance) -> bool:
 
 def is_assigned(cls: Value | None, name: str) -> bool:
     """Whether a method assigns the attribute that was not made yet."""
-    return any(name in reassigned_attributes(base.node) for base in _classes(cls))
+    return any(name in reassigned_attributes(base.node) for base in classes_of(cls))
 
 
 def is_replaced(owner: Value, name: str) -> bool:
     """Whether a method puts something else where an entity, a lock or a function may be."""
     cls = owner.cls if isinstance(owner, Instance) else owner
-    return any(name in replaced_attributes(base.node) for base in _classes(cls))
+    return any(name in replaced_attributes(base.node) for base in classes_of(cls))
 
 
-def _classes(cls: Value | None) -> Iterator[Class]:
+def classes_of(cls: Value | None) -> Iterator[Class]:
+    """A class and its bases, as far as they are of the program."""
     return (base for base in getattr(cls, 'mro', ()) if isinstance(base, Class))
 
 
