@@ -73,7 +73,7 @@ RULE = Rule(
     'branches keep apart, are not reported. What a callback has written and reads back after a '
     'wait is only a note if nothing but a test looks at it. A flag that one tests and both set to '
     'constants is only a note there. So is an update of a number with nothing but constants and '
-    'names between its read and its write (`self.n += 1`), if the other one updates it in the same '
+    'names between its read and its write (`self.n += 1`), if the other updates it in the same '
     'way or has not read it before: CPython does that in one step.',
     why='With a `MultiThreadedExecutor` callbacks of different groups, or of one reentrant '
     'group, run on different threads. CPython may switch threads between the read and the write: '
