@@ -18,6 +18,7 @@ class A(Node):
     def __init__(self):
         super().__init__('a')
         self.counts = {'left': 0, 'right': 0}
+        self.target = self.get_parameter('target').value
         for side in SIDES:
             group = MutuallyExclusiveCallbackGroup()
             self.create_timer(1.0, MADE, callback_group=group)
