@@ -184,6 +184,8 @@ class DataWriters:
         left = on.rise.writes_left(self._stored_first(on.rise), known, len(mine))
         is_open = any(self._is_open(access, doer) for access in mine)
         is_open = is_open or any(step.repeats for step in known)
+        # What the waiting run itself begins, as a task, comes as often as it has begun that.
+        is_open = is_open or any(getattr(each, 'maker', None) is doer for each, _ in writes)
         is_open = is_open or (left is not None and left > MOST and not _all_recur(writes))
         return None if left is None or (left + len(mine) > 1 and is_open) else left
 
