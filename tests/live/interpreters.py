@@ -11,6 +11,11 @@ import pytest
 INTERPRETER_VARIABLE = 'ROS2CC_RCLPY_PYTHON'
 KILTED_VARIABLE = 'ROS2CC_KILTED_PYTHON'
 EVERY_RELEASE = (INTERPRETER_VARIABLE, KILTED_VARIABLE)
+#: For what takes long: on the usual one each time, on every release with ``-m slow``.
+EVERY_RELEASE_AT_LEISURE = (
+    INTERPRETER_VARIABLE,
+    pytest.param(KILTED_VARIABLE, marks=pytest.mark.slow),
+)
 
 
 def interpreter_of(variable: str) -> str:

@@ -49,6 +49,7 @@ def test_locks_in_opposite_order_are_confirmed(rclpy_python: str, tmp_path: Path
     assert read_schedule(kept).points[0].holds
 
 
+@pytest.mark.slow
 def test_a_lost_update_is_shown_by_its_values_and_the_twin_loses_none(
     rclpy_python: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -169,6 +170,7 @@ def of_a_stand_in(given: str, folder: Path) -> Schedule:
     return schedule
 
 
+@pytest.mark.slow
 def test_what_a_stand_in_was_given_might_end_the_wait(rclpy_python: str, tmp_path: Path) -> None:
     text = of_a_stand_in("Motor('/dev/ttyACM0')", tmp_path / 'text')
     function = of_a_stand_in('Motor(on_end=self.stopped.set)', tmp_path / 'function')

@@ -38,6 +38,7 @@ def explore(*arguments: object) -> subprocess.CompletedProcess[str]:
     return done
 
 
+@pytest.mark.slow
 def test_what_is_rare_is_found_and_nothing_in_a_good_twin(
     rclpy_python: str, tmp_path: Path
 ) -> None:

@@ -17,7 +17,7 @@ import pytest
 from _pytest.mark import ParameterSet
 from child import Child
 from conftest import ROOT
-from interpreters import EVERY_RELEASE, interpreter_of
+from interpreters import EVERY_RELEASE_AT_LEISURE, interpreter_of
 
 from ros2cc_extract.compare.merge import Difference, diff
 from ros2cc_extract.extract.live.recordings.collect import specs_of
@@ -99,7 +99,7 @@ def marked_cases() -> list[ParameterSet]:
     ]
 
 
-@pytest.fixture(scope='module', params=EVERY_RELEASE)
+@pytest.fixture(scope='module', params=EVERY_RELEASE_AT_LEISURE)
 def rclpy_python(request: pytest.FixtureRequest) -> str:
     """Give an interpreter for each release that is there."""
     return interpreter_of(request.param)

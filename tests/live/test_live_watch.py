@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from child import Child
-from interpreters import EVERY_RELEASE, interpreter_of
+from interpreters import EVERY_RELEASE_AT_LEISURE, interpreter_of
 
 from ros2cc_extract.extract.live.environment import hooked_environment
 from ros2cc_extract.extract.live.hook.diagnostics import HEALTHY
@@ -103,7 +103,7 @@ def at_once(
         return [*pool.map(run, range(len(texts)))]
 
 
-@pytest.mark.parametrize('variable', EVERY_RELEASE)
+@pytest.mark.parametrize('variable', EVERY_RELEASE_AT_LEISURE)
 def test_deadlock_is_explained_once(variable: str, tmp_path: Path) -> None:
     programs = [node(ASKS), node(ASKS, TICKS)]
     alone, beside = at_once(interpreter_of(variable), programs, tmp_path, explanation)

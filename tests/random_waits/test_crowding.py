@@ -21,6 +21,7 @@ def test_who_never_overlaps_itself_is_said_to_end(name: str) -> None:
     assert judge(END[name])['ask'] == ENDS
 
 
+@pytest.mark.slow
 @pytest.mark.live
 def test_real_executors_do_as_the_model_says() -> None:
     texts = {f'hang_{name}': text for name, text in HANG.items()}

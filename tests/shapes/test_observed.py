@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from tests.live.interpreters import EVERY_RELEASE, interpreter_of
+from tests.live.interpreters import EVERY_RELEASE, EVERY_RELEASE_AT_LEISURE, interpreter_of
 from tests.shapes.observe import NOT_RUN, Seen, observe
 from tests.shapes.rows import OTHERWISE, Node, nodes
 from tests.support.domains import free_domain
@@ -30,7 +30,7 @@ def seen_on(python: str, node: Node) -> Seen:
         return observe(node, python, domain)
 
 
-@pytest.mark.parametrize('variable', EVERY_RELEASE)
+@pytest.mark.parametrize('variable', EVERY_RELEASE_AT_LEISURE)
 def test_a_few_nodes_do_what_the_table_says(variable: str) -> None:
     """Side by side: a node is looked at for seconds, in which it does next to nothing."""
     python = interpreter_of(variable)

@@ -113,7 +113,6 @@ def _checked(
         assumptions=replace(assumptions_of(config, []), rclpy=release),
         root=config.root.resolve(),
         cached=not args.no_cache,
-        keeps_runs=True,
         max_seconds=MAX_SECONDS,
         answered=answered,
     )
