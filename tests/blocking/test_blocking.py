@@ -27,7 +27,7 @@ from tests.support.cells import TIMERS, Cell, all_cells, cells_of_rows
 CELLS = all_cells()
 # Two arrivals of each of four timers that meet at a barrier have more states than 8 GB hold. The
 # limit is on states, which are the same on every machine.
-COMPACT = Options(profile=Profile.RCLPY, text=Text.COMPACT, limits=Limits(states=1_500_000))
+COMPACT = Options(profile=Profile.RCLPY, text=Text.COMPACT, limits=Limits(states=400_000))
 TIMER_CALLBACKS = dict(zip(TIMERS, ('tock', 'tick'), strict=True))
 every_cell = pytest.mark.parametrize('cell', CELLS, ids=lambda cell: cell.name)
 #: It has the row of every cell that has one.
