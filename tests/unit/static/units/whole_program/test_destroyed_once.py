@@ -92,3 +92,23 @@ def test_a_thread_that_was_waited_for_spins_no_more(ended: str, told: int, execu
     scanned = scan_text(text.replace('MAIN', f'{JOINED}{ended}ask(view)'))
     found = [d for d in scanned.diagnostics if d.slug == 'destroyed-while-spun']
     assert len(found) == told
+
+
+@pytest.mark.parametrize(
+    ('made', 'kind', 'told'),
+    [
+        ("subscription(Empty, 'next', print, 1)", 'subscription', ['warning']),
+        ('timer(1.0, print)', 'timer', ['note']),
+        ("client(Trigger, 'who')", 'client', ['note']),
+        ("service(Trigger, 'who', print)", 'service', ['note']),
+    ],
+)
+def test_only_what_has_events_of_its_own_ends_the_spin(
+    made: str, kind: str, told: list[str]
+) -> None:
+    """Whoever takes from the others catches that they are destroyed, except on Humble."""
+    go = f'self.destroy_{kind}(self.create_{made})'
+    text = NODE.replace('GO', go).replace('LEFT', 'pass').replace('EXECUTOR', POOL)
+    scanned = scan_text(f'from std_srvs.srv import Trigger\n{text}'.replace('MAIN', SPUN))
+    found = [d for d in scanned.diagnostics if d.slug == 'destroyed-while-spun']
+    assert [d.severity.value for d in found] == told
