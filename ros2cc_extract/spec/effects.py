@@ -196,8 +196,8 @@ BEGINS = '…'
 FLAG = ' (flag)'
 ADDS, TAKES, TAKES_ANY, EMPTIES = 'adds', 'takes', 'takes any', 'empties'
 TAKES_NEXT, FILLS = 'takes next', 'fills'
-COPIED, BY_INDEX = 'a copy', 'by index'
-"""How a collection is gone over without asking it for the next item each time."""
+COPIED, BY_INDEX, BY_KEY = 'a copy', 'by index', 'by key'
+"""How a collection is gone over without asking it for the next item each time, or one is found."""
 BY_NAME, BY_CALLBACK = ' may call it by a text', ' may call it by a text in a callback'
 """Why it is not known whether a function runs: in a thread, or where the executor has it."""
 CANCELS = 'cancel'
@@ -250,6 +250,8 @@ class Access:
     :param asked: true for a read by a test alone, of what the run may have stored before.
     :param fresh: true for a read to which no way leads on which the run has stored that data and
         has waited since, or by which a wait only asks anew whether it is over.
+    :param looks_up: of a read that fails uncaught where an item is not there any more, which a
+        look at the collection has found: ``BY_KEY``, as of a dictionary, or ``BY_INDEX``.
     :param admits: true for a read of a goal callback because of which it turns goals down.
     :param later: true for the use of an object where something was called since it was tested, and
         for the write of a value where something was called since that was read.
@@ -282,6 +284,7 @@ class Access:
     compared: bool = False
     asked: bool = False
     fresh: bool = False
+    looks_up: str | None = None
     admits: bool = False
     later: bool = False
     joins: str | None = None

@@ -4,7 +4,7 @@ Collections whose items others add or take meanwhile.
 A loop over a dictionary, set or deque notices that its size changes. One over a list does not;
 but a callback that goes over what has come and then empties the list loses what others put in
 between its last look and that. Code that counts through the indices, or has found that there is an
-item, fails where others have taken it out.
+item, or has a key from there, fails where others have taken it out.
 """
 
 from __future__ import annotations
@@ -13,16 +13,19 @@ from collections.abc import Iterator
 
 from ros2cc_extract.findings.base.rule import Doer
 from ros2cc_extract.findings.races.critical_sections import (
+    is_other_item,
     is_same_item,
     keep_apart,
     kept_between,
     read_for,
     waits,
+    writes_of,
 )
 from ros2cc_extract.findings.races.uses import Use, are_unordered, may_meet
 from ros2cc_extract.spec.effects import (
     ADDS,
     BY_INDEX,
+    BY_KEY,
     EMPTIES,
     FILLS,
     TAKES,
@@ -109,6 +112,28 @@ def taken_in_between(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
                 and (take.item is None or is_same_item(take, write))
                 and not keep_apart(held, write.locks)
                 and are_unordered(Use(finder, take), Use(taker, write))
+            )
+
+
+def gone_in_between(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
+    """
+    Items that one has found and looks up again, while the other takes them out.
+
+    Of a list only one that is emptied surely lacks what was found.
+    """
+    for finder, taker in ((one, other), (other, one)):
+        taken = writes_of(taker)
+        for use in (read for read in finder.reads if read.looks_up and read.name in taken):
+            look = read_for(use, finder)
+            rivals = _FEWER if use.looks_up == BY_KEY else (EMPTIES,)
+            held = kept_between(look, use, finder) if look is not None else ()
+            yield from (
+                (Use(finder, use), Use(taker, write))
+                for write in (taken[use.name] if look is not None else ())
+                if write.moves in rivals
+                and not is_other_item(use, write)
+                and not keep_apart(held, write.locks)
+                and are_unordered(Use(finder, use), Use(taker, write))
             )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ros2cc_extract.findings.base.wording import called, listing
 from ros2cc_extract.findings.races.races import Race, RaceKind
-from ros2cc_extract.spec.effects import FILLS, TAKES_NEXT
+from ros2cc_extract.spec.effects import BY_KEY, FILLS, TAKES_NEXT
 from ros2cc_extract.spec.releases.table import NO_GLOBAL_LOCK
 
 IN_ONE_PIECE = (
@@ -38,6 +38,8 @@ def describe(race: Race) -> str:
         RaceKind.SHRUNK_IN_LOOP: f'{first} goes over {names} by index, and {others} may take '
         'items out meanwhile: Python raises IndexError in the loop',
         RaceKind.TAKEN: _taken(race, first, names, others),
+        RaceKind.GONE: f'{first} finds an item in {names} and then looks it up, and {others} may '
+        f'take it out in between: Python raises {_lack(race)}',
         RaceKind.OVERWRITTEN: f'{first} writes {names}, waits and reads {it} back, and {others} '
         f'may write {it} in between: then it gets what was meant for the other',
         RaceKind.LOST_UPDATE: f'{first} updates {names} from {old}, and {others} may write {it} '
@@ -67,6 +69,10 @@ def _taken(race: Race, first: str, names: str, others: str) -> str:
         f'{first} finds an item in {names} and then takes one out, and {others} may take the last '
         f'one in between: then it raises an exception{or_waits}'
     )
+
+
+def _lack(race: Race) -> str:
+    return 'KeyError' if race.first.access.looks_up == BY_KEY else 'IndexError'
 
 
 def _is_sent(race: Race) -> bool:

@@ -43,6 +43,7 @@ from ros2cc_extract.findings.races.lifecycle import comes_before
 from ros2cc_extract.findings.races.loops_over_data import (
     changed_in_loop,
     emptied,
+    gone_in_between,
     leaves_enough,
     shrunk_in_loop,
     taken_in_between,
@@ -75,6 +76,7 @@ class RaceKind(Enum):
     EMPTIED = 'emptied after a look'
     SHRUNK_IN_LOOP = 'shrunk in a loop'
     TAKEN = 'taken in between'
+    GONE = 'gone in between'
     OVERWRITTEN = 'overwritten'
     LOST_UPDATE = 'lost update'
     CHECK_THEN_ACT = 'check then act'
@@ -92,6 +94,7 @@ _OWN_HARM = (
     RaceKind.EMPTIED,
     RaceKind.SHRUNK_IN_LOOP,
     RaceKind.TAKEN,
+    RaceKind.GONE,
     RaceKind.OVERWRITTEN,
 )
 """What not every other write does."""
@@ -270,6 +273,7 @@ def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
     others += [(RaceKind.EMPTIED, *pair) for pair in emptied(one, other)]
     others += [(RaceKind.SHRUNK_IN_LOOP, *pair) for pair in shrunk_in_loop(one, other)]
     others += [(RaceKind.TAKEN, *pair) for pair in taken_in_between(one, other)]
+    others += [(RaceKind.GONE, *pair) for pair in gone_in_between(one, other)]
     others += [(RaceKind.OVERWRITTEN, *pair) for pair in overwritten(one, other)]
     others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in uses_cleared(one, other)]
     others += [(RaceKind.CLEARED_IN_USE, *pair) for pair in bare_uses_cleared(one, other)]

@@ -148,6 +148,7 @@ ACCESS = record(
                 ('constant', 'constant', FLAG),
                 ('literal', 'literal', FLAG),
                 ('compared', 'compared', FLAG),
+                ('looks_up', 'looks_up', optional(TEXT)),
                 ('asked', 'asked', FLAG),
                 ('fresh', 'fresh', FLAG),
                 ('admits', 'admits', FLAG),

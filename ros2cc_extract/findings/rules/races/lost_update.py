@@ -27,6 +27,7 @@ def hit_of(race: Race, message: str = '', help_text: str = '') -> Hit:
     is_free = race.is_outside_groups or race.has_threads
     is_less = race.kind in (RaceKind.CHECK_THEN_CHANGE, RaceKind.WHOLE_UPDATE)
     is_less = is_less or (race.kind is RaceKind.CHECK_THEN_ACT and race.is_flag)
+    is_less = is_less or (race.kind is RaceKind.GONE and not race.first.access.later)
     is_less = is_less or (race.kind is RaceKind.OVERWRITTEN and race.first.access.asked)
     is_less = is_less or (race.kind is RaceKind.TORN_STATE and not race.is_meant_whole)
     return Hit(
@@ -57,10 +58,12 @@ RULE = Rule(
     'A loop over a list, or a copy of it, that is emptied behind it loses what others put in '
     'meanwhile. Code that counts through the indices of a list from which others take items, or '
     'that has found an item, waits, and takes one while others may take the last, fails by an '
-    'exception. So does code that asks a queue (`empty()`, `qsize()`, `full()`) and then takes an '
-    'item or puts one in, or it waits: no pause is needed in between. Variables of other modules, '
-    'attributes of functions, default values, results that `lru_cache` keeps and fields of a kept '
-    'message are data like attributes. A '
+    'exception. So does code that looks up what it has found in a dictionary (`if k in d`, `for k '
+    'in list(d)`, then `d[k]`) or in a list that others take out or empty; a note if nothing is '
+    'called in between. So does code that asks a queue (`empty()`, `qsize()`, `full()`) and then '
+    'takes an item or puts one in, or it waits: no pause is needed in between. Variables of other '
+    'modules, attributes of functions, default values, results that `lru_cache` keeps and fields '
+    'of a kept message are data like attributes. A '
     'message that is kept and changed piece by piece (`self.msg.position[k] = x`, two fields '
     'one after the other) while another callback publishes it goes out half old and half new; '
     'a message that is created each time, or changed in one step, does not. Attributes that '

@@ -107,8 +107,10 @@ def _given_from(call: ast.Call, owner: ast.expr, frame: Frame) -> frozenset[str]
 
 
 def _only_key(call: ast.Call) -> ast.expr | None:
-    """``d.update(n=…)``, ``d.__setitem__('n', …)``: the key that is stored, if it is one."""
+    """``d.update(n=…)``, ``d.__setitem__('n', …)``, ``d.pop('n')``: the key, if it is one."""
     assert isinstance(call.func, ast.Attribute)
+    if call.func.attr == 'pop' and call.args and isinstance(call.args[0], ast.Constant):
+        return call.args[0] if isinstance(call.args[0].value, str) else None
     if call.func.attr == '__setitem__' and call.args:
         return call.args[0]
     if call.func.attr != 'update' or len(call.args) + len(call.keywords) != 1:

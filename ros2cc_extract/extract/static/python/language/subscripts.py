@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import ast
+from dataclasses import replace
 from functools import partial
 
 from ros2cc_extract.extract.static.python.builtins import builtin_methods
+from ros2cc_extract.extract.static.python.language.try_blocks import is_lack_uncaught
 from ros2cc_extract.extract.static.python.machine.frame import Frame
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.machine.world import AccessKind
+from ros2cc_extract.extract.static.python.machine.world import RECENT, AccessKind
 from ros2cc_extract.extract.static.python.objects import loops
 from ros2cc_extract.extract.static.python.objects.element_keys import note_item
 from ros2cc_extract.extract.static.python.values import constant_folding
@@ -33,8 +35,8 @@ from ros2cc_extract.extract.static.python.values.values import (
     choice,
     options_of,
 )
-from ros2cc_extract.source_locations import Unknown
-from ros2cc_extract.spec.effects import ADDS, COPIED
+from ros2cc_extract.source_locations import Place, Unknown
+from ros2cc_extract.spec.effects import ADDS, BY_INDEX, BY_KEY, COPIED
 
 
 def subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
@@ -45,6 +47,7 @@ def subscript(machine: Machine, node: ast.Subscript, frame: Frame) -> Value:
     owner = machine.evaluate(node.value, frame)
     key = machine.evaluate(node.slice, frame)
     _note_filled(machine, owner, key, node, frame)
+    _note_lookup(machine, owner, node, at)
     if _is_whole(node.slice):
         machine.note_iteration(node.value, frame, COPIED)
     place = frame.place(node)
@@ -69,6 +72,30 @@ def _note_filled(
         world.moves = ADDS
         machine.note_update(node.value, frame, AccessKind.UPDATE_IN_PLACE)
         world.moves = None
+
+
+def _note_lookup(machine: Machine, owner: Value, node: ast.Subscript, at: Place) -> None:
+    """
+    Mark the read of a collection for an item that a look at it has found before.
+
+    It was found by a test, or the key comes from there: ``for k in list(d): use(d[k])``.
+    """
+    kinds = {type(each) for each in options_of(owner)}
+    how = BY_KEY if kinds == {Mapping} else BY_INDEX if kinds == {Sequence} else None
+    effects, reading = machine.world.effects, machine.world.reading
+    is_item = how is not None and not isinstance(node.slice, ast.Slice)
+    if effects is None or not is_item or not isinstance(node.value, ast.Attribute):
+        return
+    name = node.value.attr
+    for number in range(len(effects.reads) - 1, max(len(effects.reads) - RECENT, 0) - 1, -1):
+        read = effects.reads[number]
+        if (read.source, read.name.rpartition('.')[2]) == (at, name) and read.iterates is None:
+            is_key = read.name in reading.choices.get((at, name), ())
+            if (read.rests or is_key) and is_lack_uncaught(machine):
+                # Where a key is taken from, others are let in: at a call, or as the loop goes on.
+                later = read.later or is_key
+                effects.reads[number] = replace(read, looks_up=how, later=later)
+            return
 
 
 def _may_fill(owner: Value, key: Value) -> bool:
