@@ -31,6 +31,7 @@ from ros2cc_extract.spec.effects import (
     TAKES,
     TAKES_ANY,
     TAKES_NEXT,
+    Access,
 )
 from ros2cc_extract.spec.program_order import steps
 
@@ -96,6 +97,7 @@ def taken_in_between(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
     Items that one takes because it has found some and waited, while the other takes some.
 
     Or puts in because there was room. A queue may do others' work between a question and that.
+    Who puts another collection in its place takes all that were found.
     """
     for finder, taker in ((one, other), (other, one)):
         for take in (write for write in finder.writes if write.moves in _RIVALS and write.rests):
@@ -108,11 +110,17 @@ def taken_in_between(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:
                 (Use(finder, take), Use(taker, write))
                 for write in taker.writes
                 if write.name == take.name
-                and write.moves in rivals
-                and (take.item is None or is_same_item(take, write))
+                and (write.moves in rivals or is_replaced(take, write))
+                and (take.item is None or not write.in_place or is_same_item(take, write))
                 and not keep_apart(held, write.locks)
                 and are_unordered(Use(finder, take), Use(taker, write))
             )
+
+
+def is_replaced(take: Access, write: Access) -> bool:
+    """Whether ``write`` puts another collection there, from which ``take`` then takes an item."""
+    is_other = write.moves is None and not (write.in_place or write.clears)
+    return take.moves == TAKES_ANY and is_other
 
 
 def gone_in_between(one: Doer, other: Doer) -> Iterator[tuple[Use, Use]]:

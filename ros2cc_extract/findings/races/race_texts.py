@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ros2cc_extract.findings.base.wording import called, listing
+from ros2cc_extract.findings.races.loops_over_data import is_replaced
 from ros2cc_extract.findings.races.races import Race, RaceKind
 from ros2cc_extract.spec.effects import BY_KEY, FILLS, TAKES_NEXT
 from ros2cc_extract.spec.releases.table import NO_GLOBAL_LOCK
@@ -63,6 +64,11 @@ def _taken(race: Race, first: str, names: str, others: str) -> str:
         return (
             f'{first} finds room in {names} and then puts an item in, and {others} may take the '
             'last room in between: then it raises an exception, or waits'
+        )
+    if is_replaced(race.first.access, race.others[0].access):
+        return (
+            f'{first} finds an item in {names} and then takes one out, and {others} may put '
+            'others in their place in between: then it takes one that it has not looked at'
         )
     or_waits = ', or waits' if moves == TAKES_NEXT else ''
     return (

@@ -1,19 +1,24 @@
 """
-Servers of the standard library, whose handlers run on threads that no executor has.
+Servers whose handlers run on threads that no executor has, or as tasks of an event loop.
 
-Source: CPython 3.12, ``socketserver.py`` (``serve_forever``, ``ThreadingMixIn.process_request``
-starts a thread for each request; a plain server runs the handler itself) and ``http/server.py``
-(``handle_one_request`` calls ``do_GET`` and its like).
+Sources: CPython 3.12, ``socketserver.py`` (``serve_forever``, ``ThreadingMixIn.process_request``
+starts a thread for each request; a plain server runs the handler itself), ``http/server.py``
+(``handle_one_request`` calls ``do_GET`` and its like) and ``asyncio/streams.py``
+(``StreamReaderProtocol.connection_made`` makes a task for each connection); websockets 13,
+``asyncio/server.py`` (``Server.start_connection_handler`` does so, too).
 """
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 from functools import partial
 
 from ros2cc_extract.extract.static.concurrency.activities import begin
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
+from ros2cc_extract.extract.static.concurrency.waits import loop_tasks
 from ros2cc_extract.extract.static.concurrency.waits.endless_runs import note_endless_run
+from ros2cc_extract.extract.static.libraries.standard.asyncio_loops import make_task
 from ros2cc_extract.extract.static.python.machine.library_state import PlainState
 from ros2cc_extract.extract.static.python.machine.library_table import Library, LibraryClass
 from ros2cc_extract.extract.static.python.objects.loops import counted
@@ -22,6 +27,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Bound,
     Call,
     Class,
+    Function,
     Instance,
     Partial,
     Value,
@@ -57,6 +63,27 @@ def _serve(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
 def _serve_forever(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
     note_endless_run(machine.world, receiver, call.place, 'shutdown')
     return _serve(machine, receiver, call)
+
+
+def _serve_on_loop(machine: ConcurrentMachine, receiver: Value, call: Call) -> Value:
+    """``await asyncio.start_server(handler, …)``: a task of this loop for each connection."""
+    handlers = options_of(call.args[0]) if call.args else ()
+    if loop_tasks.current_task(machine.world) is not None:
+        with counted(machine, Unknown('as often as somebody connects', call.place)):
+            for handler in handlers:
+                given = [machine.mystery('connection', call.place)] * _needs(handler)
+                if given:
+                    answer = machine.call(handler, Call(call.place, [*given]))
+                    make_task(machine, NONE, Call(call.place, [answer]))
+    return machine.mystery('server of the event loop', call.place, 'server')
+
+
+def _needs(handler: Value) -> int:
+    """How many arguments a handler gets; 0 where it is not known."""
+    function = handler.function if isinstance(handler, Bound) else handler
+    if not isinstance(function, Function) or isinstance(function.node, ast.Lambda):
+        return 0
+    return len(function.node.args.args) - isinstance(handler, Bound)
 
 
 def _made(handler: Value, call: Call) -> tuple[Class, Call] | None:
@@ -105,5 +132,16 @@ TABLE = Library(
             ('socketserver', 'UDPServer'),
             ('socketserver', 'ThreadingUDPServer'),
         )
-    }
+    },
+    functions=dict.fromkeys(
+        (
+            'asyncio.start_server',
+            'asyncio.start_unix_server',
+            'websockets.serve',
+            'websockets.server.serve',
+            'websockets.asyncio.server.serve',
+            'websockets.legacy.server.serve',
+        ),
+        _serve_on_loop,
+    ),
 )
