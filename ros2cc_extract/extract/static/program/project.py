@@ -130,7 +130,8 @@ class Project:
         key = (source.path.parent, parts[0])
         if key not in self._roots:
             here = self.disk
-            self._roots[key] = _package_root(here, *key) or _root_in_repository(here, *key)
+            root = _package_root(here, *key) or _root_in_repository(here, *key)
+            self._roots[key] = root or _namespace_root(here, *key)
         root = self._roots[key]
         return self._in_folder(root, parts) if root is not None else None
 
@@ -228,6 +229,15 @@ def _package_root(files: Files, folder: Path, package: str) -> Path | None:
                 is_package = files.is_file(root / package / '__init__.py')
                 if is_package and any(files.is_file(home / name) for name in _MANIFESTS):
                     return root
+    return None
+
+
+def _namespace_root(files: Files, folder: Path, package: str) -> Path | None:
+    """The folder beside the manifest of the importing file that holds ``package`` (PEP 420)."""
+    for home in (folder, *list(folder.parents)[:_LEVELS]):
+        if any(files.is_file(home / name) for name in _MANIFESTS):
+            roots = (home, home / 'src')
+            return next((root for root in roots if files.is_folder(root / package)), None)
     return None
 
 

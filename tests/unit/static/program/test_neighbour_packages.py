@@ -68,3 +68,17 @@ def test_known_library_is_not_followed_into_its_sources(tmp_path: Path) -> None:
     write(tmp_path / 'tf2_ros' / 'tf2_ros' / '__init__.py', NODE)
     write(tmp_path / 'app' / 'run.py', SCRIPT.format('tf2_ros'))
     assert names_of(tmp_path, 'app/run.py') == []
+
+
+@pytest.mark.parametrize('home', ['app', 'app/src'])
+@pytest.mark.parametrize(
+    ('manifest', 'expected'), [('app/setup.py', ['tick']), ('arm/setup.py', [])]
+)
+def test_folder_of_modules_beside_the_manifest_is_found(
+    tmp_path: Path, home: str, manifest: str, expected: list[str]
+) -> None:
+    """Without any ``__init__.py``: a namespace package."""
+    write(tmp_path / home / 'parts' / 'nodes.py', NODE)
+    write(tmp_path / manifest)
+    write(tmp_path / 'app' / 'app' / 'run.py', SCRIPT.format('parts.nodes'))
+    assert names_of(tmp_path, 'app/app/run.py') == expected

@@ -98,3 +98,53 @@ def test_what_is_handed_over_to_the_loop_is_not(does: str) -> None:
 
 def test_a_loop_that_spins_the_node_runs_its_callbacks_in_its_own_thread() -> None:
     assert told('self.queue.put_nowait(msg)', WITHIN) == []
+
+
+SERVER = """\
+import asyncio
+import threading
+import rclpy
+import websockets
+from rclpy.node import Node
+from std_msgs.msg import String
+
+class Bridge(Node):
+    def __init__(self):
+        super().__init__('bridge')
+        self.queue = asyncio.Queue()
+        self.create_subscription(String, 'text', self.on_text, 10)
+
+    def on_text(self, msg):
+        self.queue.put_nowait(msg.data)
+
+    async def serve(self, PARAMETERS):
+        while True:
+            print(await self.queue.get())
+
+    async def run(self):
+        await MADE(self.serve, '127.0.0.1', 8000)
+        await asyncio.Event().wait()
+
+rclpy.init()
+bridge = Bridge()
+threading.Thread(target=rclpy.spin, args=(bridge,), daemon=True).start()
+asyncio.run(bridge.run())
+"""
+
+
+@pytest.mark.parametrize(
+    ('made', 'parameters', 'waits'),
+    [
+        ('asyncio.start_server', 'reader, writer', ['asyncio.Queue.get']),
+        ('websockets.serve', 'websocket', ['asyncio.Queue.get']),
+        ('websockets.serve', 'websocket, path', ['asyncio.Queue.get']),
+        ('another.serve', 'websocket', []),
+    ],
+)
+def test_each_connection_is_a_task_of_the_loop(
+    made: str, parameters: str, waits: list[str]
+) -> None:
+    text = SERVER.replace('MADE', made).replace('PARAMETERS', parameters)
+    (unit,) = scan_text(text).units
+    calls = [block.call for each in unit.activities for block in each.blocking]
+    assert [call for call in calls if 'Queue' in call] == waits
