@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
@@ -26,6 +27,8 @@ OPEN_WAITS = (UNDECIDED.code, OUTSIDE_WAIT.code)
 _COSTS = (TRANSFORM_WAIT.code,)
 """What the time-out of one attempt costs."""
 _WEIGHTS = tuple(Severity)
+_NUMBER_OF_OBJECT = re.compile(r'#\d+\b')
+"""By which objects of one class are told apart, in one unit and in several."""
 _OF_WAITS = ('CC1', 'CC2')
 
 
@@ -69,7 +72,8 @@ def all_findings(
     alike: dict[tuple[object, ...], list[Finding]] = {}
     for identity in sorted(by_identity):
         finding = by_identity[identity]
-        key = (finding.place, finding.code, finding.cause) if finding.cause else identity[:3]
+        what = finding.cause or _NUMBER_OF_OBJECT.sub('', finding.message)
+        key = (finding.place, finding.code, what)
         alike.setdefault(key, []).append(finding)
     merged = [_as_one(findings) for findings in alike.values()]
     return tuple(sorted(_without_what_is_decided(merged), key=_worst_first))
@@ -96,10 +100,14 @@ def _is_reported(finding: Finding, reported: Collection[tuple[Place, str]]) -> b
 
 
 def _as_one(findings: Sequence[Finding]) -> Finding:
-    """Report what has one cause once, with the number of units that it shows in."""
+    """Report what has one cause once, with the number of units or objects that it shows in."""
     first = findings[0]
+    if not first.cause:
+        more = len({finding.message for finding in findings}) - 1
+        others = 'another object' if more == 1 else f'{more} more objects'
+        return replace(first, message=f'{first.message}; the same of {others}') if more else first
     more = len({finding.unit for finding in findings}) - 1
-    if not first.cause or not more:
+    if not more:
         return first
     others = 'another unit' if more == 1 else f'{more} more units'
     return replace(first, message=f'{first.message}; the same in {others}')

@@ -166,3 +166,16 @@ def test_two_services_of_one_function_that_sleeps() -> None:
     end = ' and the parameter services of the node wait that long'
     assert slept(*both, other) == [f'{begin}on_go{end}']
     assert slept(*both) == [f'{begin}on_list{end}']
+
+
+def test_objects_of_one_class_that_lose_at_one_line() -> None:
+    """Each has the same way to lose it, in this unit or another; the class is mended once."""
+    rows = [read_then_written(f'Filter#{number}.value', 30) for number in (2, 3, 4)]
+    units = [
+        unit(threads(3), service('on_a', 'free', **row), service('on_b', 'free', **row))
+        for row in rows
+    ]
+    found = [each for each in findings_of(units, [], [None] * 3) if each.code == 'CC301']
+    assert [each.place for each in found] == [at(31)]
+    assert 'Filter#2.value' in found[0].message
+    assert found[0].message.endswith('; the same of 2 more objects')

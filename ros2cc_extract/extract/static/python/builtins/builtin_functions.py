@@ -422,7 +422,6 @@ _FUNCTIONS: dict[str, Handler] = {
     'builtins.ord': _letter(ord),
     'builtins.chr': _letter(chr),
     'builtins.anext': generators.anext_of,
-    'builtins.next': generators.next_of,
     'builtins.any': _of_all(stops_on=True),
     'builtins.all': _of_all(stops_on=False),
     'builtins.max': _extreme('max'),

@@ -17,8 +17,7 @@ from ros2cc_extract.extract.static.program.generator_texts import first_yield, y
 from ros2cc_extract.extract.static.program.text_queries import noted_on
 from ros2cc_extract.extract.static.python.machine.library_table import AWAITED
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.objects.loops import any_of
-from ros2cc_extract.extract.static.python.values.containers import Collection, Generator, Sequence
+from ros2cc_extract.extract.static.python.values.containers import Generator, Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Call,
@@ -138,16 +137,6 @@ def _next(machine: Machine, receiver: Value, call: Call) -> Value:
     run(machine, receiver, call.place, is_one=True)
     unknown = machine.mystery('item of a generator', call.place, 'next(…)')
     return choice([*receiver.items, unknown]) if receiver.items else unknown
-
-
-def next_of(machine: Machine, receiver: Value, call: Call) -> Value:
-    """``next(items, default)``: one of the items, where all of them are known."""
-    given = options_of(call.args[0]) if call.args else ()
-    items = [any_of(each) if isinstance(each, Collection) else None for each in given]
-    known = [item for item in items if item is not None]
-    if not known or len(known) < len(items):
-        return machine.mystery('result of next', call.place, 'next(…)')
-    return choice([*known, *call.args[1:2]])
 
 
 def _at(call: Call, place: Place) -> Call:

@@ -17,7 +17,8 @@ from ros2cc_extract.extract.static.python.builtins.code_behind import (
 )
 from ros2cc_extract.extract.static.python.machine.library_table import LibraryClass
 from ros2cc_extract.extract.static.python.machine.machine import Machine
-from ros2cc_extract.extract.static.python.values.containers import Sequence
+from ros2cc_extract.extract.static.python.objects.loops import any_of
+from ros2cc_extract.extract.static.python.values.containers import Collection, Sequence
 from ros2cc_extract.extract.static.python.values.values import (
     NONE,
     Bound,
@@ -285,7 +286,7 @@ _STACK = LibraryClass(
     },
 )
 
-_OF_BUILTINS = ('abs', 'bytes', 'format', 'hash', 'next', 'repr', 'round')
+_OF_BUILTINS = ('abs', 'bytes', 'format', 'hash', 'repr', 'round')
 _ASKING = {
     **{f'builtins.{name}': name for name in _OF_BUILTINS},
     'copy.copy': 'copy',
@@ -305,7 +306,20 @@ def run_by(machine: Machine, function: Library, call: Call) -> None:
         asked_as(machine, call.args[0], _ASKING[function.name], call.place)
 
 
+def _next(machine: Machine, receiver: Value, call: Call) -> Value:
+    """``next(items, default)``: one of the items, where all of them are known."""
+    given = options_of(call.args[0]) if call.args else ()
+    items = [any_of(each) if isinstance(each, Collection) else None for each in given]
+    known = [item for item in items if item is not None]
+    if known and len(known) == len(items):
+        return choice([*known, *call.args[1:2]])
+    if call.args:
+        asked_as(machine, call.args[0], 'next', call.place)
+    return machine.mystery('result of next', call.place, 'next(…)')
+
+
 FUNCTIONS: dict[str, Handler] = {
+    'builtins.next': _next,
     'functools.reduce': _reduce,
     'operator.methodcaller': _methodcaller,
     'operator.attrgetter': _attrgetter,
