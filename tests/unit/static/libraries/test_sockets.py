@@ -51,6 +51,16 @@ rclpy.spin(Bridge())
             'self.server.settimeout(1.0); peer, address = self.server.accept(); peer.recv(10)',
             [('socket.accept', 1.0), ('socket.recv', None)],
         ),
+        # A stream sends as fast as its peer reads; a datagram goes, whoever reads it.
+        (
+            "peer, address = self.server.accept(); peer.sendall(b'x')",
+            [('socket.accept', None), ('socket.sendall', None)],
+        ),
+        ("socket.socket(type=socket.SOCK_DGRAM).send(b'x')", []),
+        (
+            "peer = socket.create_connection(('robot', 5000), 2.0); peer.send(b'x')",
+            [('socket.create_connection', 2.0), ('socket.send', 2.0)],
+        ),
     ],
 )
 def test_what_a_socket_waits_for_is_known(

@@ -62,9 +62,10 @@ FUNCTIONS: dict[str, OutsideRow] = {
     'requests.head': _BY_NAME,
 }
 
-_SOCKET = dict.fromkeys(
-    ('accept', 'connect', 'recv', 'recv_into', 'recvfrom', 'recvfrom_into', 'recvmsg'), _LIMITED
-)
+_RECEIVES = ('accept', 'recv', 'recv_into', 'recvfrom', 'recvfrom_into', 'recvmsg')
+SENDS_OF_SOCKETS = ('connect', 'send', 'sendall', 'sendmsg', 'sendfile')
+"""Once its buffers are full, a stream sends only as fast as its peer reads; a datagram goes."""
+_SOCKET = dict.fromkeys((*_RECEIVES, *SENDS_OF_SOCKETS), _LIMITED)
 
 _SERIAL = dict.fromkeys(('read', 'read_until', 'readline', 'readlines', 'readinto'), _LIMITED)
 

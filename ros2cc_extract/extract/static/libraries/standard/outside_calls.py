@@ -19,6 +19,7 @@ from ros2cc_extract.extract.static.concurrency.machine.outside_names import (
     FRAMES,
     FUNCTIONS,
     READS_OF_CAMERAS,
+    SENDS_OF_SOCKETS,
     STREAM,
     WAIT_KEY,
     OutsideRow,
@@ -54,7 +55,8 @@ _READ = 'os.read'
 _COMMUNICATE, _PIPED = 'Popen.communicate', '__piped__'
 _SOCKET, _ACCEPT = 'socket.socket', 'socket.accept'
 _CONNECTED = 'socket.create_connection'
-_CONNECT, _DATAGRAM = 'socket.connect', 'socket.SOCK_DGRAM'
+_DATAGRAM = 'socket.SOCK_DGRAM'
+_SENDS = frozenset(f'socket.{name}' for name in SENDS_OF_SOCKETS)
 _AT_ONCE = 'socket.MSG_DONTWAIT'
 
 
@@ -65,7 +67,7 @@ def _waiting(name: str, row: OutsideRow) -> Handler:
         limit = slots.get(_TIMEOUT, slots.get(_LIMIT))
         if row.takes_limit and isinstance(limit, Value):
             timeout = limit
-        is_at_once = (name == _CONNECT and _DATAGRAM in slots) or _is_set_so(call)
+        is_at_once = (name in _SENDS and _DATAGRAM in slots) or _is_set_so(call)
         is_at_once = (is_at_once and row.takes_limit) or _is_killed(machine, name, call.place)
         is_at_once = is_at_once or (isinstance(timeout, Const) and timeout.value == 0)
         is_at_once = is_at_once or is_short(name, call)
