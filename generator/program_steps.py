@@ -71,6 +71,7 @@ class NamedWait:
     :param resource: that it waits for, or gives a signal to.
     :param begun: starts; one of them must have been given: what is waited for is not there before.
     :param may_skip: a branch may skip it; of a signal, then it is unknown whether it comes.
+    :param past: of a signal, the step after those that come only behind it; ``None`` for the next.
     :param is_open: something that the model does not have may end it, or nothing does.
     :param origin: place in the specification, with ``block`` or ``waker``.
     """
@@ -83,6 +84,7 @@ class NamedWait:
     resource: Resource | None = None
     begun: tuple[Resource, ...] = ()
     may_skip: bool = False
+    past: int | None = None
     is_open: bool = False
     origin: int = field(default=0, compare=False)
     block: Blocking | None = field(default=None, compare=False)

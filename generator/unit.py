@@ -13,7 +13,7 @@ from ros2cc_extract.generator.omissions import (
 )
 from ros2cc_extract.generator.program_steps import Lock, NamedWait, Resource, gives
 from ros2cc_extract.generator.resources import start_of
-from ros2cc_extract.generator.unit_waits import SpinForm, UnitWait
+from ros2cc_extract.generator.unit_waits import SpinForm, UnitResource, UnitWait
 from ros2cc_extract.generator.waits import (
     actors_of,
     foreign_wakes,
@@ -95,29 +95,6 @@ class UnitGroup:
 
 
 @dataclass(frozen=True, kw_only=True)
-class UnitResource:
-    """
-    What callbacks wait for and give signals to.
-
-    :param most: how many signals are kept; more would end no more waits.
-    :param forgets: they are kept only for those that wait already.
-    :param least: so many must be there before a wait ends.
-    """
-
-    name: str
-    is_each: bool
-    initial: int
-    most: int
-    forgets: bool = False
-    least: int = 1
-
-    @property
-    def counts(self) -> bool:
-        """True when a wait needs a signal of its own, or several."""
-        return self.is_each or self.least > 1
-
-
-@dataclass(frozen=True, kw_only=True)
 class Unit:
     """
     What a model is made of.
@@ -179,6 +156,11 @@ class Unit:
     def has_skips(self) -> bool:
         """True when a branch may skip a step."""
         return any(wait.may_skip for wait in self.waits)
+
+    @property
+    def has_ways(self) -> bool:
+        """True when a branch that skips a signal skips waits behind it as well."""
+        return any(wait.past is not None for wait in self.waits)
 
     @property
     def has_doubts(self) -> bool:
@@ -424,6 +406,7 @@ def _number_wait(
         begun=frozenset(resources.index(each) for each in wait.begun if each in resources),
         is_signal=wait.is_signal,
         may_skip=wait.may_skip,
+        past=wait.past,
         is_open=wait.is_open,
         wakers=wait.wakers,
     )

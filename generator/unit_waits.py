@@ -21,6 +21,7 @@ class UnitWait:
     :param resource: place of what is waited for, or gets a signal.
     :param begun: places of the starts without which what is waited for is not there.
     :param is_signal: it is no wait.
+    :param past: of a signal, the step to which a branch leads that skips it, if not the next one.
     :param wakers: names of those that give signals to the resource.
     """
 
@@ -36,6 +37,7 @@ class UnitWait:
     begun: frozenset[int] = frozenset()
     is_signal: bool = False
     may_skip: bool = False
+    past: int | None = None
     is_open: bool = False
     wakers: tuple[str, ...] = ()
 
@@ -73,6 +75,29 @@ class UnitWait:
     def refusal(self) -> int:
         """Whether the executor refuses to be spun, by number."""
         return self.spin.refusal.value if self.spin else 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnitResource:
+    """
+    What callbacks wait for and give signals to.
+
+    :param most: how many signals are kept; more would end no more waits.
+    :param forgets: they are kept only for those that wait already.
+    :param least: so many must be there before a wait ends.
+    """
+
+    name: str
+    is_each: bool
+    initial: int
+    most: int
+    forgets: bool = False
+    least: int = 1
+
+    @property
+    def counts(self) -> bool:
+        """True when a wait needs a signal of its own, or several."""
+        return self.is_each or self.least > 1
 
 
 @dataclass(frozen=True, order=True)

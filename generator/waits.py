@@ -8,7 +8,7 @@ run the client), ``action/client.py``, ``timer.py`` (``Rate``); ``threading.Even
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from ros2cc_extract.generator.executor_kinds import ExecutorKind, executor_kind
@@ -52,9 +52,24 @@ def waits_of(callback: Actor, spec: Spec) -> tuple[NamedWait, ...]:
     known = known_of(spec).setdefault(waits_of, {})
     if id(callback) not in known:
         # Kept with its callback, so that no other one gets its number.
-        known[id(callback)] = callback, tuple(_waits_of(callback, spec))
+        known[id(callback)] = callback, tuple(_with_ways(tuple(_waits_of(callback, spec))))
     found: tuple[NamedWait, ...] = known[id(callback)][1]
     return found
+
+
+def _with_ways(steps: Sequence[NamedWait]) -> Iterator[NamedWait]:
+    """Let a branch that skips a signal skip the waits that come only behind it."""
+    for number, step in enumerate(steps):
+        until = step.waker.until if step.is_signal and step.may_skip and step.waker else None
+        past = number + 1
+        while past < len(steps) and _is_inside(steps[past], until):
+            past += 1
+        yield step if past == number + 1 else replace(step, past=past)
+
+
+def _is_inside(step: NamedWait, until: int | None) -> bool:
+    is_wait = step.block is not None and not step.is_signal
+    return until is not None and is_wait and step.origin < until
 
 
 def _waits_of(callback: Actor, spec: Spec) -> Iterator[NamedWait]:

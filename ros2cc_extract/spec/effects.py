@@ -76,6 +76,8 @@ class Waker:
     :param after: how many of its own waits (entries of ``blocking``) the waker has behind it
         then; ``None`` where its end, or what happens at its end, ends the wait.
     :param conditional: true where a branch may skip the operation.
+    :param until: where it is conditional, how many of its own waits the waker has behind it where
+        the branch ends that the operation stands on: those after it come only behind it.
     :param held: locks held at that operation, as of a ``Blocking``.
     :param passed: locks that it has surely had to take before.
     """
@@ -84,6 +86,7 @@ class Waker:
     source: Place | None = None
     after: int | None = None
     conditional: bool = False
+    until: int | None = None
     held: tuple[str, ...] = ()
     passed: tuple[str, ...] = ()
 

@@ -222,15 +222,7 @@ def _with_signals(callback: Callback, names: list[str], random: Random) -> Callb
 def _signalled(names: list[str], random: Random) -> Blocking:
     resource = random.choice(('done', 'queue'))
     needs = Needs.EACH if resource == 'queue' else random.choice((Needs.ONCE, Needs.ALL))
-    wakers = tuple(
-        Waker(
-            by=random.choice(names),
-            after=random.choice((None, 0, 1)),
-            conditional=random.random() < 0.15,
-            held=random.choice(((), (), ('other',))),
-        )
-        for _ in range(random.choice((1, 1, 2)))
-    )
+    wakers = tuple(_waker(names, random) for _ in range(random.choice((1, 1, 2))))
     return Blocking(
         call=random.choice(('Event.wait', 'Event.wait', 'await')),
         resource=resource,
@@ -240,6 +232,17 @@ def _signalled(names: list[str], random: Random) -> Blocking:
         forgets=random.random() < 0.3,
         escapes=Unknown('given away') if random.random() < 0.15 else None,
         conditional=random.random() < 0.15,
+        held=random.choice(((), (), ('other',))),
+    )
+
+
+def _waker(names: list[str], random: Random) -> Waker:
+    after, is_skipped = random.choice((None, 0, 1)), random.random() < 0.15
+    return Waker(
+        by=random.choice(names),
+        after=after,
+        conditional=is_skipped,
+        until=random.choice((None, 1, 2)) if is_skipped and after is not None else None,
         held=random.choice(((), (), ('other',))),
     )
 

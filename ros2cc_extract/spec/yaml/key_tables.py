@@ -76,6 +76,7 @@ WAKER = record(
             (
                 ('after', 'after', optional(COUNT)),
                 ('conditional', 'conditional', FLAG),
+                ('until', 'until', optional(COUNT)),
                 ('held', 'held', listing(TEXT)),
                 ('passed', 'passed', listing(TEXT)),
                 _SOURCE,

@@ -190,7 +190,7 @@ class _Numbers:
             return step.may_skip, words
         place, resource = self.resources.index(step.resource), step.resource
         kind = resource.is_each, resource.initial, resource.forgets, resource.least
-        return place, kind, step.may_skip, words
+        return place, kind, step.may_skip, step.past, words
 
     def _held(self, wait: NamedWait) -> Sequence[int]:
         return tuple(sorted(self.locks[lock] for lock in wait.held))

@@ -418,9 +418,8 @@ class UnitWaits(DataWriters):
 
     def _is_behind(self, end: End, raw: Blocking, doer: Doer) -> bool:
         """Whether ``doer`` itself ends it, when it has waited."""
-        behind = self._kept[id(doer)].places.get(end.behind, 0)
-        mine_at = self._kept[id(doer)].places.get(way_of(raw), 0)
-        return end.doer is doer and 0 < mine_at <= behind
+        places = self._kept[id(doer)].places
+        return end.doer is doer and 0 < places.get(way_of(raw), 0) <= places.get(end.behind, 0)
 
     def _of_main_after(self, raw: Blocking, doer: Doer) -> Callable[[End], bool]:
         """What ``main``, which runs once, ends when it has waited is there while it waits."""
@@ -465,6 +464,7 @@ class UnitWaits(DataWriters):
             source=place,
             after=after,
             conditional=self._may_fail(waking, reference, doer, raw, stays=stays),
+            until=self._kept[id(by)].until(waking, after) if id(by) in self._kept else None,
             held=waking.held,
             passed=waking.taken,
         )

@@ -41,7 +41,10 @@ def _rewritten(
         return after if of is None else of[min(after, len(of) - 1)]
 
     def waker(each: Waker) -> Waker:
-        return each if each.after is None else replace(each, after=behind(each.by, each.after))
+        if each.after is None:
+            return each
+        until = None if each.until is None else behind(each.by, each.until)
+        return replace(each, after=behind(each.by, each.after), until=until)
 
     def blocking(name: str) -> tuple[Blocking, ...]:
         return tuple(

@@ -11,6 +11,7 @@ from ros2cc_extract.extract.static.python.machine.recorded_effects import Hold
 from ros2cc_extract.extract.static.python.values.values import (
     Const,
     Instance,
+    Path,
     Value,
     options_of,
 )
@@ -117,6 +118,7 @@ class Waking:
     :param by: a callback or an activity; ``None`` for the set-up, and for what no known code
         calls.
     :param behind: the last wait of ``by`` before it, see ``EffectLog.behind``.
+    :param path: the branches that it stands on; ``None`` where several ways lead there.
     :param spins: of the set-up, how many spins of its own thread are over, but for those of a loop
         in which it stands itself.
     :param uncalled: the function without a known caller in whose text it stands.
@@ -137,6 +139,7 @@ class Waking:
     place: Place
     behind: object = None
     conditional: bool = False
+    path: Path | None = None
     after_spin: bool = False
     spins: int = 0
     uncalled: str | None = None

@@ -63,6 +63,7 @@ from ros2cc_extract.extract.static.python.values.values import (
     Instance,
     Library,
     Mystery,
+    Path,
     Value,
     choice,
     options_of,
@@ -120,6 +121,7 @@ class Waits(ConcurrentMachine):
         sure = tuple(number for number in world.round if number > 0)
         current = world.round if name in PAUSES else sure
         note_round(effects, block, current, is_open=world.open_loops > 0)
+        effects.note_way(block, world.path)
 
     def _block(
         self, name: str, on: Value | None, seconds: Value | None, place: Place
@@ -181,6 +183,7 @@ class Waits(ConcurrentMachine):
         if is_main(world.activity):
             self._note_in_set_up(block, None, place, spun)
         world.note_waited(way_of(block))
+        effects.note_way(block, world.path)
         if block not in effects.blocking[-RECENT:]:
             effects.blocking.append(block)
         effects.met.append((len(effects.blocking) - 1, 0))
@@ -320,7 +323,7 @@ class Waits(ConcurrentMachine):
             waking = self._waking(option, word, place, item)
             same = next((n for n, w in enumerate(wakings) if _is_same_waking(waking, w)), None)
             if same is not None:
-                wakings[same] = _with_item(wakings[same], item)
+                wakings[same] = _with_item(wakings[same], item, world.path)
             else:
                 wakings.append(waking)
                 if isinstance(option, Instance):
@@ -337,6 +340,7 @@ class Waits(ConcurrentMachine):
             place,
             behind=world.effects.behind if world.effects is not None else None,
             conditional=world.path != world.callback_path if doer else bool(world.path),
+            path=world.path,
             after_spin=world.after_spin,
             spins=0 if world.spun_in_loop else world.main_spins,
             uncalled=(self.stack[0].name if self.stack else '') if is_uncalled else None,
@@ -439,8 +443,10 @@ def _is_same_waking(one: Waking, other: Waking) -> bool:
     )
 
 
-def _with_item(waking: Waking, item: Value | None) -> Waking:
-    """The same operation, in which another item may be put as well."""
+def _with_item(waking: Waking, item: Value | None, path: Path) -> Waking:
+    """The same operation on another way perhaps, in which another item may be put as well."""
+    if path != waking.path:
+        waking = replace(waking, path=None)
     if item is None or waking.item is None or item == waking.item:
         return waking
     options = dict.fromkeys((*options_of(waking.item), *options_of(item)))

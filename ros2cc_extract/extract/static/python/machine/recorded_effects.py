@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import field
+from itertools import takewhile
 from typing import Any
 
 from ros2cc_extract.extract.static.python.values.values import Function, Instance, Path
@@ -92,6 +93,7 @@ class EffectLog:
         at which each was.
     :param stored_or_stale: what was noted of data that the run has stored, see ``path_facts.py``.
     :param storers: the functions that were running when data was stored, by its name.
+    :param ways: the branches that lead to a wait, by ``way_of``.
     :param looked: while a test is asked for what it looks at, see ``loop_ends.py``.
     """
 
@@ -123,6 +125,14 @@ class EffectLog:
     stored_or_stale: list[Any] = field(default_factory=list)
     storers: dict[str, set[tuple[Function, ...]]] = field(default_factory=dict)
     looked: Looked | None = None
+    ways: dict[object, Path] = field(default_factory=dict)
+
+    def note_way(self, block: Blocking, path: Path) -> None:
+        """Note the branches that lead to a wait, as far as they are on all ways to it."""
+        known = self.ways.setdefault(way_of(block), path)
+        if known != path:
+            shared = takewhile(lambda pair: pair[0] == pair[1], zip(known, path, strict=False))
+            self.ways[way_of(block)] = tuple(step for step, _ in shared)
 
 
 def way_of(block: Blocking) -> object:

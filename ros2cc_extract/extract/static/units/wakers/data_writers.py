@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field, replace
+from itertools import takewhile
 
 from ros2cc_extract.extract.static.concurrency.activities import is_activity
 from ros2cc_extract.extract.static.concurrency.machine.counters import MOST, Rise
@@ -52,6 +53,20 @@ class Kept:
     raw: list[Blocking] = field(default_factory=list)
     named: list[Blocking] = field(default_factory=list)
     places: dict[object, int] = field(default_factory=dict)
+
+    def until(self, waking: Waking, after: int | None) -> int | None:
+        """How many waits are behind the branch of ``waking``, see ``Waker.until``."""
+        doer, path = waking.by, waking.path
+        if after is None or path is None or not waking.conditional or not isinstance(doer, Doer):
+            return None
+        ways = doer.effects.ways if doer.effects is not None else {}
+        elsewhere = {
+            place for way, place in self.places.items() if ways.get(way, ())[: len(path)] != path
+        }
+        inside = takewhile(
+            lambda place: place not in elsewhere, range(after + 1, len(self.raw) + 1)
+        )
+        return max(inside, default=None)
 
 
 class DataWriters:
