@@ -248,6 +248,8 @@ class Access:
     :param constant: true for a write that rests on a test and stores a constant, as of a flag.
     :param literal: true for a write of a constant that stands there in the text, and that is not
         false: whoever comes there stores the same.
+    :param at_once: true for a write of a flag right behind the test that has found it down:
+        CPython, by its global lock, lets no other thread in between.
     :param compared: true for a read that only asks whether it is still what the code has in a
         name of its own.
     :param asked: true for a read by a test alone, of what the run may have stored before.
@@ -284,6 +286,7 @@ class Access:
     found: str | None = None
     constant: bool = False
     literal: bool = False
+    at_once: bool = False
     compared: bool = False
     asked: bool = False
     fresh: bool = False
@@ -303,7 +306,8 @@ class Act:
 
     :param name: the lock, the topic, the entity or executor concerned.
     :param held: of a lock that is waited for, the locks held meanwhile, outermost first; its own
-        name is among them where it cannot be taken twice.
+        name is among them where it cannot be taken twice; of what is made, the flags that the code
+        has found down and put up.
     :param tries: of a lock that is taken only if it is free at once, or in some time.
     :param repeats: of what is made: it stands in a loop, so that one run may make several.
     :param after: of a message, how many of the waits come before it.

@@ -51,6 +51,11 @@ class Context:
         return (*self.written, *self.unit.activities)
 
     @cached_property
+    def everybody(self) -> tuple[Doer, ...]:
+        """All that may run, functions too that code has which is not scanned."""
+        return (*self.unit.callbacks, *self.unit.activities, *self.unit.handed)
+
+    @cached_property
     def doer_by_name(self) -> dict[str, Doer]:
         """Every callback and every activity by its name."""
         return {**self.by_name, **{each.name: each for each in self.unit.activities}}

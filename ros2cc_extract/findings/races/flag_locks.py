@@ -3,18 +3,23 @@ Flags by which callbacks keep each other out, as far as they do.
 
 The scanner notes which code has found a flag down and put it up
 (``extract/static/concurrency/accesses/flag_locks.py``). That keeps others out where nobody
-else writes the flag, and where no two can find it down at once.
+else writes the flag, and where no two can find it down at once: by a lock, by a group, or because
+CPython lets no other thread in between the test and the setting. That last one is no promise of
+the language, so the flag itself stays shared data then.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
 from ros2cc_extract.findings.base.rule import Context
 from ros2cc_extract.findings.races.critical_sections import kept_between, read_for
+from ros2cc_extract.findings.races.made_later import comes_first, made_by_several
 from ros2cc_extract.findings.waits.workers import honours_groups, is_one_thread
+from ros2cc_extract.light_dataclasses import dataclass
+from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import (
     FLAG,
     FOUND_NONE,
@@ -43,22 +48,60 @@ def as_shared(doers: tuple[_Doer, ...], *contexts: Context) -> tuple[_Doer, ...]
     """
     Callbacks, or threads, with their accesses as flags leave them.
 
-    A flag that keeps others out stands among the locks and is no shared data itself; any other
-    is shared data and no lock.
+    A flag that keeps others out stands among the locks and is no shared data itself, unless it
+    does so by the lock of the interpreter alone; any other is shared data and no lock. What they
+    make keeps the flags behind which it is made once and for all.
     """
     flags = _flags_of(contexts)
-    if not flags:
-        return doers
-    kept = {flag.removesuffix(FLAG) for flag in flags if _keeps_out(flag, contexts)}
+    kept = _Kept.of(flags, contexts)
+    several = made_by_several(contexts)
     return tuple(
-        replace(
-            doer,
-            reads=_judged(doer.reads, kept),
-            writes=_judged(doer.writes, kept),
-            pieces=_judged(doer.pieces, kept),
-        )
+        _with_changes(_with_accesses(doer, kept) if flags else doer, kept, several)
         for doer in doers
     )
+
+
+@dataclass(frozen=True)
+class _Kept:
+    """
+    The names of flags that keep others out.
+
+    :param at_once: the flags among ``names`` of which only the lock of the interpreter makes sure.
+    :param once: those that are never put down again.
+    """
+
+    names: frozenset[str]
+    at_once: frozenset[str]
+    once: frozenset[str]
+
+    @classmethod
+    def of(cls, flags: Iterable[str], contexts: Sequence[Context]) -> _Kept:
+        by_lock = frozenset(flag for flag in flags if _keeps_out(flag, contexts))
+        at_once = frozenset(flag for flag in flags if _is_claimed_at_once(flag, contexts))
+        once = (flag for flag in by_lock | at_once if _stays_up(flag, contexts))
+        return cls(_bare(by_lock | at_once), _bare(at_once - by_lock), _bare(once))
+
+
+def _bare(flags: Iterable[str]) -> frozenset[str]:
+    return frozenset(flag.removesuffix(FLAG) for flag in flags)
+
+
+def _with_accesses(doer: _Doer, kept: _Kept) -> _Doer:
+    return replace(
+        doer,
+        reads=_judged(doer.reads, kept),
+        writes=_judged(doer.writes, kept),
+        pieces=_judged(doer.pieces, kept),
+    )
+
+
+def _with_changes(doer: _Doer, kept: _Kept, several: Container[Place | None]) -> _Doer:
+    changes = tuple(
+        replace(act, held=tuple(flag for flag in act.held if flag.removesuffix(FLAG) in kept.once))
+        for act in doer.changes
+        if act.source not in several or comes_first(doer)
+    )
+    return doer if changes == doer.changes else replace(doer, changes=changes)
 
 
 def _flags_of(contexts: Iterable[Context]) -> set[str]:
@@ -73,18 +116,18 @@ def _accesses(callback: Callback | Activity) -> tuple[Access, ...]:
     return (*callback.reads, *callback.writes, *callback.pieces)
 
 
-def _judged(accesses: Iterable[Access], kept: set[str]) -> tuple[Access, ...]:
+def _judged(accesses: Iterable[Access], kept: _Kept) -> tuple[Access, ...]:
     return tuple(
         replace(
             access,
             locks=tuple(
                 lock
                 for lock in access.locks
-                if not lock.endswith(FLAG) or lock.removesuffix(FLAG) in kept
+                if not lock.endswith(FLAG) or lock.removesuffix(FLAG) in kept.names - {access.name}
             ),
         )
         for access in accesses
-        if access.name not in kept
+        if access.name not in kept.names or access.name in kept.at_once
     )
 
 
@@ -116,6 +159,43 @@ def _keeps_out(flag: str, contexts: Sequence[Context]) -> bool:
     if len(writing) == 1 and _is_of_one_group(setters, writing[0]):
         return True
     return bool(frozenset.intersection(*(_locks_of(*setter) for setter in setters)))
+
+
+def _is_claimed_at_once(flag: str, contexts: Sequence[Context]) -> bool:
+    """Whether all that put it up do so right behind their test, and only these put it down."""
+    writes = [write for _, write in _all_writes(flag, contexts)]
+    claims = [write for write in writes if write.rests]
+    are_of_one_kind = len({write.found for write in claims}) == 1
+    are_held = all(flag in write.locks and (write.at_once or not write.rests) for write in writes)
+    return bool(claims) and are_of_one_kind and are_held and _is_of_one_node(flag, contexts)
+
+
+def _is_of_one_node(flag: str, contexts: Sequence[Context]) -> bool:
+    """Whether the flag is one: of helper objects there may be many, and each has its own."""
+    writers = [one for one, _ in _all_writes(flag, contexts)]
+    owner = flag.rpartition('.')[0]
+    callbacks = [one for context in contexts for one in context.unit.callbacks]
+    is_of_node = any(one.cls == owner for one in callbacks)
+    nodes = {one.node for one in writers if one.node is not None}
+    return is_of_node and len(nodes) == 1 and all(one.count == 1 for one in writers)
+
+
+def _stays_up(flag: str, contexts: Sequence[Context]) -> bool:
+    """Whether nobody stores anything but a constant in it that every test takes for up."""
+    writes = [write for _, write in _all_writes(flag, contexts)]
+    return bool(writes) and all(write.literal and flag in write.locks for write in writes)
+
+
+def _all_writes(flag: str, contexts: Sequence[Context]) -> list[tuple[_Use, Access]]:
+    """Those of functions too that code has which is not scanned."""
+    name = flag.removesuffix(FLAG)
+    return [
+        (one, write)
+        for context in contexts
+        for one in context.everybody
+        for write in one.writes
+        if write.name == name
+    ]
 
 
 def _writes_of(name: str, context: Context) -> list[tuple[_Use, Access]]:

@@ -22,7 +22,7 @@ def meeting(doer: Callback, other: Callback, context: Context) -> Callback:
     if other.entity is not EntityKind.DONE_CALLBACK or context.exclusive_group(doer) is None:
         return doer
     begins = [(each, act) for each in context.doers for act in each.changes if _begins(act, other)]
-    if len(begins) != 1 or begins[0][0] is not doer:
+    if len(begins) != 1 or begins[0][0].name != doer.name:
         return doer
     begin = steps(begins[0][1])
     ends = [steps(block) for block in doer.blocking if _waits_for(block, other, doer)]

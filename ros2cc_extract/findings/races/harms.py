@@ -16,7 +16,7 @@ from ros2cc_extract.findings.races.critical_sections import (
     waits,
     writes_of,
 )
-from ros2cc_extract.findings.races.lifecycle import comes_before
+from ros2cc_extract.findings.races.made_later import comes_before
 from ros2cc_extract.findings.races.uses import Use, are_unordered, may_meet
 from ros2cc_extract.spec.effects import Access
 from ros2cc_extract.spec.model import Activity

@@ -39,7 +39,6 @@ from ros2cc_extract.findings.races.harms import (
     uses_cleared,
     written_before,
 )
-from ros2cc_extract.findings.races.lifecycle import comes_before
 from ros2cc_extract.findings.races.loops_over_data import (
     changed_in_loop,
     emptied,
@@ -48,6 +47,7 @@ from ros2cc_extract.findings.races.loops_over_data import (
     shrunk_in_loop,
     taken_in_between,
 )
+from ros2cc_extract.findings.races.made_later import comes_before
 from ros2cc_extract.findings.races.shared_objects import node_classes, shared_part
 from ros2cc_extract.findings.races.uses import Use
 from ros2cc_extract.findings.waits.concurrent_threads import (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ros2cc_extract.findings.base.rule import Doer
 from ros2cc_extract.findings.races.critical_sections import keep_apart
-from ros2cc_extract.findings.races.lifecycle import comes_before
+from ros2cc_extract.findings.races.made_later import comes_before
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
 from ros2cc_extract.spec.effects import Access

@@ -148,6 +148,7 @@ ACCESS = record(
                 ('found', 'found', optional(TEXT)),
                 ('constant', 'constant', FLAG),
                 ('literal', 'literal', FLAG),
+                ('at_once', 'at_once', FLAG),
                 ('compared', 'compared', FLAG),
                 ('looks_up', 'looks_up', optional(TEXT)),
                 ('asked', 'asked', FLAG),

@@ -6,6 +6,7 @@ import ast
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses import (
+    claims,
     closure_cells,
     collection_aliases,
     flag_locks,
@@ -179,8 +180,7 @@ class Effects(Waits):
         at, flows = (place, attribute or name.rpartition('.')[2]), name in reading.flowing
         choices = flows or name in reading.choices.get(at, ())
         chosen = is_content and (choices or bool(self.world.given_from & {name, ITSELF}))
-        is_tested = reading.governs(name, self.world.path)
-        is_tested = is_tested or (is_content and reading.leads_to(name, self.world.path))
+        is_tested = (reading.leads_to if is_content else reading.governs)(name, self.world.path)
         is_tested = is_tested and not (is_stored and refreshed.is_known(self.world, name, place))
         rests = (is_tested or flows or chosen) and not self.world.by_local
         is_used = rests and is_read and at in reading.used
@@ -213,6 +213,7 @@ class Effects(Waits):
             found=reading.found_of(name, self.world.path) if is_stored else None,
             constant=is_stored and rests and isinstance(reading.stored, Const),
             literal=is_stored and bool(self.world.literals.get(place)),
+            at_once=is_stored and rests and claims.is_at_once(self.world, name),
             joins=joins,
             akin=is_akin,
             turn=() if is_read or is_content else self._turn_of_store(),

@@ -12,6 +12,7 @@ from contextlib import AbstractContextManager, contextmanager
 
 from ros2cc_extract.extract.static.concurrency.accesses import (
     atomic_updates,
+    claims,
     flag_locks,
     iterations,
     kept_threads,
@@ -125,7 +126,11 @@ class Notes(Effects):
     def _storing(self, node: ast.Assign | ast.AugAssign, frame: Frame) -> Iterator[None]:
         taken = torn_state.noted(self.world.reading, node, frame)
         with taken, atomic_updates.noted(self, node, frame):
-            yield
+            self.world.reading.is_claim = claims.is_claim(node, frame)
+            try:
+                yield
+            finally:
+                self.world.reading.is_claim = False
 
     def note_branch(
         self, node: ast.If, found: Set[str], place: Place, frame: Frame, *, is_first: bool

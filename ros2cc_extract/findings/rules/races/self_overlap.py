@@ -166,7 +166,9 @@ RULE = Rule(
     'and its write (`self.n += 1`, see CC301), for a timer whose runs are known to be shorter '
     'than its period, for a done-callback that one such timer alone requests, once in a run, and '
     'for a test, or a copy of the value, that is followed by the write without a wait in between, '
-    'and for the copy without a call either. Where another callback '
+    'and for the copy without a call either. What lies behind a flag that one run alone gets past '
+    '(`if self.busy: return`, and `self.busy = True` with nothing called in between) is not '
+    'reported, unless others lower that flag. Where another callback '
     'may lose the same update, CC301 or CC303 is reported instead. There is one finding for all '
     'callbacks that come to one line, and for all attributes of one callback.',
     why='The executor may take an entity again as soon as its data was taken; a reentrant group '

@@ -62,7 +62,7 @@ def note_test(
     for name in found:
         names.setdefault(name.rpartition('.')[2], []).append(name + FLAG)
     steps = steps_of(node)
-    for attribute, down_if, value in _flags_of(test, constant):
+    for attribute, down_if, value in flags_asked(test, constant):
         meant = names.get(attribute, [])
         for step in steps[down_if] if len(meant) == 1 else ():
             known = reading.down.get((place, step), frozenset())
@@ -76,16 +76,20 @@ def note_test(
 
 def steps_of(node: ast.If) -> dict[bool, tuple[int, ...]]:
     """The steps of the path on which the test of an ``if`` is true, and false."""
-    is_left = not node.orelse and isinstance(node.body[-1], _LEAVING)
     is_split = bool(node.orelse) and not isinstance(node.orelse[0], ast.If)
-    return {True: (_THEN,), False: (_AFTER,) if is_left else (_ELSE,) if is_split else ()}
+    return {True: (_THEN,), False: (_AFTER,) if is_left(node) else (_ELSE,) if is_split else ()}
 
 
-def _flags_of(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
+def is_left(node: ast.If) -> bool:
+    """Whether what follows an ``if`` is done only where its test is false."""
+    return not node.orelse and isinstance(node.body[-1], _LEAVING)
+
+
+def flags_asked(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
     """The flags that are down where all of ``test`` holds, or where nothing of it does."""
     if isinstance(test, ast.BoolOp):
         down_if = isinstance(test.op, ast.And)
-        parts = [asked for value in test.values for asked in _flags_of(value, constant)]
+        parts = [asked for value in test.values for asked in flags_asked(value, constant)]
         yield from (asked for asked in parts if asked[1] is down_if)
         return
     yield from _asked(test, constant)

@@ -20,7 +20,7 @@ from ros2cc_extract.extract.static.python.machine.world import note_once
 from ros2cc_extract.extract.static.python.values.values import Instance
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import Act
+from ros2cc_extract.spec.effects import FLAG, Act
 
 CONDITION_WAITS = frozenset({'Condition.wait', 'Condition.wait_for'})
 # They answer from what they are given, or for the whole program.
@@ -95,11 +95,16 @@ def note_begun(world: ConcurrentWorld, place: Place) -> None:
 
 
 def note_made(world: ConcurrentWorld, kind: str, place: Place) -> None:
-    """Note that the running code makes an entity at ``place``, or the same one once more."""
+    """
+    Note that the running code makes an entity at ``place``, or the same one once more.
+
+    With it stand the flags that this code has found down and put up.
+    """
     if world.effects is None:
         return
     made = world.effects.changes
-    once = Act(name=kind, source=place, chain=world.chain[1:])
+    flags = tuple(held for held in world.held if held.endswith(FLAG))
+    once = Act(name=kind, source=place, chain=world.chain[1:], held=flags)
     again = replace(once, repeats=True)
     if again in made:
         return

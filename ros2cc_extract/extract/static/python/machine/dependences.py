@@ -58,6 +58,7 @@ class Reading:
     :param compared: what is only asked for whether it is still what the function knows.
     :param stored: the value that is being stored; ``replaced`` the one of an attribute before.
     :param is_whole: what is stored now is read and stored in one piece, see ``atomic_updates.py``.
+    :param is_claim: it is a flag, put up right behind its test, see ``claims.py``.
     :param taken_from: arguments of the function that what is stored now was taken from.
     :param named: what the source names in that value.
     :param waited: where the value ends that is stored now, if it is waited for.
@@ -86,6 +87,7 @@ class Reading:
     stored: Value | None = None
     replaced: Value | None = None
     is_whole: bool = False
+    is_claim: bool = False
     taken_from: frozenset[str] = frozenset()
     named: frozenset[str] = frozenset()
     waited: Place | None = None
