@@ -105,7 +105,7 @@ if __name__ == '__main__':
 #     writes A.asking rests constant under A.asking (flag) @33
 #     writes A.steps under A.asking (flag) @34
 #     writes A.steps @36
-#     changes done_callback @35
+#     changes done_callback holding A.asking (flag) @35
 #   timer by_arm in a_default every 1
 #     reads A.busy under lock @45
 #     writes A.busy rests constant under lock, A.busy (flag) @46

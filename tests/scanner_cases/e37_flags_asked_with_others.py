@@ -66,7 +66,7 @@ if __name__ == '__main__':
 #     reads A.asking @23
 #     writes A.asking rests constant under A.asking (flag) @24
 #     writes A.steps under A.asking (flag) @25
-#     changes done_callback @26
+#     changes done_callback holding A.asking (flag) @26
 #   timer either in a_default every 1
 #     reads A.moving @33
 #     writes A.moving rests constant under A.moving (flag) @35

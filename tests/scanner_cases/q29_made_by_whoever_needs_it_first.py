@@ -73,7 +73,7 @@ if __name__ == '__main__':
 #     reads Lamp.out @23>20
 #     writes Lamp.out rests under Lamp.out (flag) @23>18
 #     publishes lamp conditional @23
-#     changes timer @23>19
+#     changes timer holding Lamp.out (flag) @23>19
 #   subscription left_on_message in lamp_default (Lamp.on_message) key=left conditional when=later
 #   subscription right_on_message in lamp_default (Lamp.on_message) key=right conditional when=later
 #   client client in lamp_default key=? conditional when=later

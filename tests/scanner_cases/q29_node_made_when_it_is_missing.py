@@ -63,6 +63,6 @@ door = Door()
 #     reads Lamp.pub @39
 #     writes Lamp.pub rests later under Lamp.pub (flag) @37
 #     publishes lamp conditional @39
-#     changes timer @38
+#     changes timer holding Lamp.pub (flag) @38
 #   subscription heard in backend_default key=door conditional when=later
 #     reads q29_node_made_when_it_is_missing.shared @50>28
