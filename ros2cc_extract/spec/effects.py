@@ -207,7 +207,7 @@ CANCELS = 'cancel'
 """The name of the change by which a timer ends itself after it has waited."""
 ABORTS = 'abort'
 """The name of the change by which a callback stops a running goal."""
-FOUND_NONE, FOUND_FALSE, FOUND_TRUE = 'None', 'false', 'true'
+FOUND_NONE, FOUND_FALSE, FOUND_TRUE, FOUND_SOME = 'None', 'false', 'true', 'not None'
 FOUND_THIS, FOUND_OTHER = '== ', '!= '
 
 
@@ -242,9 +242,9 @@ class Access:
     :param clears: true where ``None`` is stored; ``lowers`` for another constant that is false.
     :param fills_none: true for a write by ``main``, where ``None`` was until then.
     :param found: of a write that rests on tests alone, what these have found: ``FOUND_NONE``, or
-        ``FOUND_FALSE`` where anything false would do, and ``FOUND_TRUE``; a constant behind
-        ``FOUND_THIS``, or behind
-        ``FOUND_OTHER`` where it is something else.
+        ``FOUND_FALSE`` where anything false would do, ``FOUND_TRUE``, and ``FOUND_SOME`` for what
+        is not ``None``; a constant behind ``FOUND_THIS``, or behind ``FOUND_OTHER`` where it is
+        something else.
     :param constant: true for a write that rests on a test and stores a constant, as of a flag.
     :param literal: true for a write of a constant that stands there in the text, and that is not
         false: whoever comes there stores the same.

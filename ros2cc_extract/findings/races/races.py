@@ -31,6 +31,7 @@ from ros2cc_extract.findings.races.critical_sections import (
     writes_of,
 )
 from ros2cc_extract.findings.races.flag_locks import as_shared, shared_by
+from ros2cc_extract.findings.races.found_states import changes_nothing, store_alike
 from ros2cc_extract.findings.races.harms import (
     bare_uses_cleared,
     overwritten,
@@ -61,7 +62,7 @@ from ros2cc_extract.findings.waits.waits import WaitKind, kind_of
 from ros2cc_extract.identity_memo import once
 from ros2cc_extract.light_dataclasses import dataclass
 from ros2cc_extract.source_locations import Place
-from ros2cc_extract.spec.effects import FOUND_FALSE, FOUND_NONE, Act
+from ros2cc_extract.spec.effects import Act
 from ros2cc_extract.spec.model import Activity, Callback
 from ros2cc_extract.spec.program_order import steps
 from ros2cc_extract.verify.results.evidence import Evidence
@@ -195,7 +196,7 @@ def races_across(pairs: Iterable[tuple[Doer, Doer]]) -> Iterator[Race]:
     by_attribute: dict[tuple[str, str], list[_Conflict]] = {}
     for one, other in pairs:
         if _share_data(one, other):
-            for conflict in _at_once(one, other, Overlap()):
+            for conflict in _at_once(one, other, Overlap(), None):
                 by_attribute.setdefault(('', conflict.first.access.name), []).append(conflict)
     yield from _joined(by_attribute)
 
@@ -242,11 +243,12 @@ def _conflicts(one: Doer, other: Doer, context: Context) -> Iterator[_Conflict]:
         )
     elif (meeting := beside(one, other, context)) is not None:
         if _spins(one) or _spins(other):
-            yield from _over_spins(*(meeting if _spins(one) else reversed(meeting)))
+            server, callback = meeting if _spins(one) else reversed(meeting)
+            yield from _over_spins(server, callback, context)
             return
         together, (one, other) = Overlap(), meeting
     if together is not None:
-        yield from _at_once(one, other, together)
+        yield from _at_once(one, other, together, context)
 
 
 def _share_data(one: Doer, other: Doer) -> bool:
@@ -262,12 +264,14 @@ def _share_data(one: Doer, other: Doer) -> bool:
 
 def _of_two_alike(thread: Activity) -> Iterator[_Conflict]:
     """What two threads that run the same lose; that both store the same is no matter."""
-    for conflict in _at_once(thread, thread, Overlap()):
+    for conflict in _at_once(thread, thread, Overlap(), None):
         if conflict.kind in LOSING:
             yield conflict
 
 
-def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
+def _at_once(
+    one: Doer, other: Doer, together: Overlap, context: Context | None
+) -> Iterator[_Conflict]:
     written = {access.name for access in one.writes} & {access.name for access in other.writes}
     others = [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in changed_in_loop(one, other)]
     others += [(RaceKind.EMPTIED, *pair) for pair in emptied(one, other)]
@@ -288,7 +292,7 @@ def _at_once(one: Doer, other: Doer, together: Overlap) -> Iterator[_Conflict]:
             and not comes_before(a, one, other)
             and not comes_before(b, other, one)
         ]
-        classified = [found for pair in pairs if (found := _classify(*pair)) is not None]
+        classified = [found for pair in pairs if (found := _classify(*pair, context)) is not None]
         classified += [found for found in others if found[1].access.name == name]
         if classified:
             kind, first, second = min(classified, key=lambda found: _WEIGHT[found[0]])
@@ -303,7 +307,7 @@ def _over_awaits(one: Callback, other: Callback, context: Context) -> Iterator[_
                 (Use(callback, a), Use(rival, b)) for a in callback.writes for b in rival.writes
             )
             for first, second in pairs:
-                if first.access.name == second.access.name and _is_stale(first, second):
+                if first.access.name == second.access.name and _is_stale(first, second, context):
                     yield _Conflict(RaceKind.CHECK_THEN_ACT, first, second, None)
             for reader, writer in torn_states(callback, rival, pauses=callback):
                 yield _Conflict(RaceKind.TORN_STATE, reader, writer, None)
@@ -314,14 +318,15 @@ def _spins(doer: Doer) -> tuple[Act, ...]:
     return doer.spins if isinstance(doer, Activity) else ()
 
 
-def _over_spins(server: Doer, callback: Doer) -> Iterator[_Conflict]:
+def _over_spins(server: Doer, callback: Doer, context: Context) -> Iterator[_Conflict]:
     """What ``main`` has read before it lets callbacks run, and relies on afterwards."""
     begun = min(steps(spin) for spin in _spins(server))
     pairs = [
         (RaceKind.CHECK_THEN_ACT, Use(server, a), Use(callback, b))
         for a in server.writes
         for b in writes_of(callback).get(a.name, ())
-        if not is_other_item(a, b) and not _changes_nothing(Use(server, a), Use(callback, b))
+        if not is_other_item(a, b)
+        and not changes_nothing(Use(server, a), Use(callback, b), context)
     ]
     found = [pair for pair in pairs if _is_read_before_spin(*pair[1:])]
     found += [(RaceKind.CHANGED_IN_LOOP, *pair) for pair in changed_in_loop(server, callback)]
@@ -342,19 +347,23 @@ def _is_read_before_spin(first: Use, second: Use) -> bool:
     )
 
 
-def _is_stale(first: Use, second: Use) -> bool:
+def _is_stale(first: Use, second: Use, context: Context) -> bool:
     write, doer = first.access, first.doer
     read = read_acted_on(write, doer, second.access)
-    if read is None or is_other_item(write, second.access) or _changes_nothing(first, second):
+    if (
+        read is None
+        or is_other_item(write, second.access)
+        or changes_nothing(first, second, context)
+    ):
         return False
     awaits = (b for b in doer.blocking if kind_of(b) is WaitKind.AWAIT)
     over_await = any(steps(read) < steps(block) < steps(write) for block in awaits)
     return over_await and not keep_apart(kept_between(read, write, doer), second.access.locks)
 
 
-def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
+def _classify(one: Use, other: Use, context: Context | None) -> tuple[RaceKind, Use, Use] | None:
     if keep_apart(one.access.locks, other.access.locks):
-        return _classify_locked(one, other)
+        return _classify_locked(one, other, context)
     for first, second in ((one, other), (other, one)):
         if first.access.update and not first.access.in_place and _may_be_lost(first, second):
             return RaceKind.LOST_UPDATE, first, second
@@ -364,7 +373,7 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
         is_wanted = read_acted_on(first.access, first.doer, second.access) is not None
         is_wanted = is_wanted or (first.access.rests and not first.access.in_place)
         is_wanted = is_wanted or _is_old_item(first, second)
-        is_wanted = is_wanted and not _changes_nothing(first, second)
+        is_wanted = is_wanted and not changes_nothing(first, second, context)
         if is_wanted and _is_read_before(first, second):
             return RaceKind.CHECK_THEN_ACT, first, second
     for first, second in ((one, other), (other, one)):
@@ -376,7 +385,9 @@ def _classify(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
             return RaceKind.WHOLE_UPDATE, first, second
     if one.access.in_place and other.access.in_place:
         return None
-    if _leaves_as_found(one, other) or _leaves_as_found(other, one) or _store_alike(one, other):
+    if changes_nothing(one, other, context) or changes_nothing(other, one, context):
+        return None
+    if store_alike(one, other):
         return None
     return RaceKind.LAST_WRITE_WINS, one, other
 
@@ -391,12 +402,14 @@ def _may_be_lost(update: Use, rival: Use) -> bool:
     return not is_whole or (not rival.access.whole and _is_read_before(rival, update))
 
 
-def _classify_locked(one: Use, other: Use) -> tuple[RaceKind, Use, Use] | None:
+def _classify_locked(
+    one: Use, other: Use, context: Context | None
+) -> tuple[RaceKind, Use, Use] | None:
     """A lock helps only if it is held from the read to the write that is based on it."""
     for first, second in ((one, other), (other, one)):
         write = first.access
         read = read_acted_on(write, first.doer, second.access)
-        if _changes_nothing(first, second):
+        if changes_nothing(first, second, context):
             continue
         if read is not None and not keep_apart(
             kept_between(read, write, first.doer), second.access.locks
@@ -414,30 +427,6 @@ def _is_old_item(first: Use, second: Use) -> bool:
         and is_same_item(write, second.access)
         and any(is_same_item(read, write) for _, read in reads_of(first.doer).get(write.name, ()))
     )
-
-
-def _leaves_as_found(first: Use, second: Use) -> bool:
-    """Whether a write stores what the test of another has found: then that still holds."""
-    found, write = first.access.found, second.access
-    is_empty = found in (FOUND_NONE, FOUND_FALSE)
-    return (is_empty and write.clears) or (found == FOUND_FALSE and write.lowers)
-
-
-def _store_alike(one: Use, other: Use) -> bool:
-    """Whether both store ``None``, or both what else is false: the order does not matter."""
-    ours, theirs = one.access, other.access
-    return (ours.clears and theirs.clears) or (ours.lowers and theirs.lowers)
-
-
-def _changes_nothing(first: Use, second: Use) -> bool:
-    """
-    Whether what comes in between is what was found, or the ``False`` that is stored in any case.
-
-    Two that both test before they store the same may both act on it, and one that meets ``None``
-    instead of an object may fail.
-    """
-    is_lowered = first.access.lowers and second.access.lowers and not second.access.rests
-    return is_lowered or _leaves_as_found(first, second)
 
 
 def _is_of_threads(*uses: Use) -> bool:

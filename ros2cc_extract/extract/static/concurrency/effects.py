@@ -210,7 +210,7 @@ class Effects(Waits):
             clears=is_stored and reading.stored == NONE,
             lowers=is_stored and reading.stored != NONE and data_kinds.is_false(reading.stored),
             fills_none=is_stored and reading.fills_none and is_main(self.world.activity),
-            found=reading.found_of(name, self.world.path) if is_stored else None,
+            found=reading.found_of(name, self.world.path, self.world.laps) if is_stored else None,
             constant=is_stored and rests and isinstance(reading.stored, Const),
             literal=is_stored and bool(self.world.literals.get(place)),
             at_once=is_stored and rests and claims.is_at_once(self.world, name),

@@ -17,6 +17,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     iterations,
     kept_threads,
     lost_notifications,
+    tested_copies,
     torn_state,
     torn_updates,
     unreleased_locks,
@@ -146,6 +147,8 @@ class Notes(Effects):
                 place,
                 lambda each: flag_locks.constant_text(self, each, frame),
             )
+            tested_copies.note_test(self, node, place, frame)
+            reading.around[place] = self.world.laps
             kept_threads.note_test(self, node, place, frame)
         lost_notifications.note_test(self.world, node.test, place, reading.tests[place])
 

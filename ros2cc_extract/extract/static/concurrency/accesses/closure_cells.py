@@ -62,6 +62,16 @@ def shown_cell(world: ConcurrentWorld, scope: Scope, name: str) -> str | None:
     return shown
 
 
+def is_own_name(name: str, frame: Frame) -> bool:
+    """Whether a name is a variable of the running function alone, which none inside shares."""
+    function = frame.function
+    return (
+        function is not None
+        and owner_of(name, frame) is frame.scope
+        and name not in noted_on(function.node, 'cells', _shared)
+    )
+
+
 def _number(world: ConcurrentWorld, scope: Scope) -> str:
     """Two calls of one function by the set-up have variables of their own."""
     assert scope.function is not None

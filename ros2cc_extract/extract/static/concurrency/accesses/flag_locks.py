@@ -13,6 +13,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterable, Iterator
 
+from ros2cc_extract.extract.static.concurrency.accesses.closure_cells import is_own_name
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.machine.dependences import Reading
@@ -30,6 +31,7 @@ from ros2cc_extract.spec.effects import (
     FOUND_FALSE,
     FOUND_NONE,
     FOUND_OTHER,
+    FOUND_SOME,
     FOUND_THIS,
     FOUND_TRUE,
 )
@@ -68,10 +70,16 @@ def note_test(
             known = reading.down.get((place, step), frozenset())
             reading.down[place, step] = known | set(meant)
             reading.found.setdefault((place, step), {})[meant[0].removesuffix(FLAG)] = value
-    for attribute, up_if in _found_up(test):
+    for attribute, up_if, value in _found_up(test):
         meant = names.get(attribute, [])
         for step in steps[up_if] if len(meant) == 1 else ():
-            reading.found.setdefault((place, step), {})[meant[0].removesuffix(FLAG)] = FOUND_TRUE
+            reading.found.setdefault((place, step), {})[meant[0].removesuffix(FLAG)] = value
+
+
+def asked_in(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
+    """The names that a test asks for, what it gives then, and what they hold if it does."""
+    yield from _found_up(test)
+    yield from _flags_of(test, constant)
 
 
 def steps_of(node: ast.If) -> dict[bool, tuple[int, ...]]:
@@ -95,16 +103,21 @@ def flags_asked(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
     yield from _asked(test, constant)
 
 
-def _found_up(test: ast.expr) -> Iterator[tuple[str, bool]]:
+def _found_up(test: ast.expr) -> Iterator[_Asked]:
     """The flags that are up where all of ``test`` holds, or where nothing of it does."""
     if isinstance(test, ast.BoolOp):
         up_if = isinstance(test.op, ast.And)
         parts = [found for value in test.values for found in _found_up(value)]
         yield from (found for found in parts if found[1] is up_if)
     elif isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
-        yield from ((name, not up_if) for name, up_if in _found_up(test.operand))
+        inner = _found_up(test.operand)
+        yield from ((name, not up_if, value) for name, up_if, value in inner)
+    elif isinstance(test, ast.Compare):
+        # The other arm of a test for ``None``.
+        asked = _asked(test, lambda _: None)
+        yield from ((name, not is_none, FOUND_SOME) for name, is_none, _ in asked)
     elif _name_of(test) is not None:
-        yield _name_of(test) or '', True
+        yield _name_of(test) or '', True, FOUND_TRUE
 
 
 def _asked(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
@@ -138,13 +151,22 @@ _SAME: dict[type[ast.cmpop], bool] = {
 
 
 def behind_getters(machine: ConcurrentMachine, test: ast.expr, frame: Frame) -> ast.expr:
-    """A test with the attribute for each call of a method that only gives one of its own."""
+    """
+    A test with the attribute for each call of a method that only gives one of its own.
+
+    Names of the function's own become nameless: they are no shared data.
+    """
     if isinstance(test, ast.UnaryOp):
         operand = behind_getters(machine, test.operand, frame)
         return test if operand is test.operand else ast.UnaryOp(test.op, operand)
     if isinstance(test, ast.BoolOp):
         values = [behind_getters(machine, value, frame) for value in test.values]
         return test if values == test.values else ast.BoolOp(test.op, values)
+    if isinstance(test, ast.Compare) and isinstance(test.left, ast.Name):
+        left = behind_getters(machine, test.left, frame)
+        return test if left is test.left else ast.Compare(left, test.ops, test.comparators)
+    if isinstance(test, ast.Name) and is_own_name(test.id, frame):
+        return ast.Name('', test.ctx)  # it is called like an attribute at most
     if not isinstance(test, ast.Call) or test.args or not isinstance(test.func, ast.Attribute):
         return test
     noted, machine.world.effects = machine.world.effects, None

@@ -61,6 +61,7 @@ _AROUND = (
     'after_spin',
     'open_loops',
     'loop_depth',
+    'laps',
     'assumed',
 )
 

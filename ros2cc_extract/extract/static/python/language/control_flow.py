@@ -30,11 +30,14 @@ def _loop(machine: Machine, frame: Frame) -> Iterator[None]:
     """A loop runs inside; afterwards what held at any ``break`` may hold."""
     outer = frame.breaks, frame.continues, frame.known_at_break
     frame.breaks, frame.continues, frame.known_at_break = [], [], []
+    laps = machine.world.laps
+    machine.world.laps = (*laps, object())
     try:
         yield
         machine.store.join([{}], frame.breaks)
     finally:
         frame.breaks, frame.continues, frame.known_at_break = outer
+        machine.world.laps = laps
 
 
 def _round(machine: Machine, body: Sequence[ast.stmt], frame: Frame) -> int:

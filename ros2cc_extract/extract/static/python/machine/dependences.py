@@ -71,6 +71,7 @@ class Reading:
     :param asked: the tests of branches, by their place; ``loops`` those of the loops around.
     :param down: flags that were found down, by the step of the path on which they are.
     :param found: what tests have found of them there, see ``Access.found``.
+    :param around: the loops around the tests that have found it, see ``World.laps``.
     :param passed: tests behind which the program is because it has not raised there; that leads
         to no step of the path.
     """
@@ -100,6 +101,7 @@ class Reading:
     tested_at: dict[Place, int] = field(default_factory=dict)
     read_at: dict[str, int] = field(default_factory=dict)
     begun_at: dict[Place, int] = field(default_factory=dict)
+    around: dict[Place, object] = field(default_factory=dict)
     passed: Path = ()
 
     @contextmanager
@@ -148,12 +150,21 @@ class Reading:
         """Whether an attribute that was None for sure gets something else."""
         return self.replaced == NONE and self.stored != NONE
 
-    def found_of(self, name: str, path: Path) -> str | None:
-        """What tests of ``name`` have found, where nothing else of it matters any more."""
+    def found_of(self, name: str, path: Path, laps: object) -> str | None:
+        """
+        What tests of ``name`` have found, where nothing else of it matters any more.
+
+        In a loop behind a test, the round before may have stored something already.
+
+        :param laps: as ``World.laps``.
+        """
         if name in self.flowing or not self.governs(name, path):
             return None
-        known = [self.found.get(step, {}).get(name) for step in self.behind(path)]
-        return next((each for each in reversed(known) if each is not None), None)
+        for step in reversed(self.behind(path)):
+            known = self.found.get(step, {}).get(name)
+            if known is not None:
+                return known if self.around.get(step[0]) == laps else None
+        return None
 
     def refuse(self, path: Path, found: Iterable[str]) -> None:
         """A goal is turned down here, after tests of what led here and of what was found."""

@@ -90,7 +90,8 @@ class World:
     :param count: how often what is made now is made (loops).
     :param is_program: it is run from an entry, so that nothing happens before its set-up.
     :param open_loops: how many loops with an unknown number of rounds are followed; ``loop_depth``
-        how many functions were running when the last of them began.
+        how many functions were running when the last of them began; ``laps`` has one object for
+        each loop that is followed now, of any number of rounds.
     :param ready: what has surely happened to objects that others may wait for, see
         ``path_facts.py``.
     :param picked: what had happened to items for which they were put into a collection, by its
@@ -173,6 +174,7 @@ class World:
     current: Doer | None = None
     open_loops: int = 0
     loop_depth: int = 0
+    laps: tuple[object, ...] = ()
     picked: dict[int, frozenset[tuple[Value, Word]]] = field(default_factory=dict)
     skipped_if: dict[tuple[Place, int], frozenset[tuple[Value, Word]]] = field(
         default_factory=dict
