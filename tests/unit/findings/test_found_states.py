@@ -75,6 +75,13 @@ load = self.load
         if load is not None:
             time.sleep(0.5)
             self.load = self.weight"""
+STORED_AND_ASKED_AGAIN = """\
+load = self.load
+        if load is not None:
+            self.load = None
+            time.sleep(0.5)
+            if load is not None:
+                self.load = self.weight"""
 COPIED_IN_PART = """\
 load = self.weight
         if self.weight > 3:
@@ -160,6 +167,7 @@ def test_runs_of_one_callback_are_told_of_that_one() -> None:
         # What the copy was may be over by the own write before.
         (IF_NONE, COPIED_BEFORE),
         (IF_NONE, COPY_STORED_ANEW),
+        (IF_NONE, STORED_AND_ASKED_AGAIN),
         (IF_NONE, COPIED_IN_PART),
         (IF_NONE, STORED_IN_ROUNDS),
         (IF_NONE, LIKE_AN_ATTRIBUTE),

@@ -154,15 +154,16 @@ class Reading:
         """
         What tests of ``name`` have found, where nothing else of it matters any more.
 
-        In a loop behind a test, the round before may have stored something already.
+        It is over where the code has stored something since, or may have in the round before of a
+        loop behind the test.
 
         :param laps: as ``World.laps``.
         """
-        if name in self.flowing or not self.governs(name, path):
+        if name in self.flowing:
             return None
         for step in reversed(self.behind(path)):
             known = self.found.get(step, {}).get(name)
-            if known is not None:
+            if known is not None and name in self.tests.get(step[0], ()):
                 return known if self.around.get(step[0]) == laps else None
         return None
 
