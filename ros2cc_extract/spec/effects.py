@@ -259,7 +259,8 @@ class Access:
         look at the collection has found: ``BY_KEY``, as of a dictionary, or ``BY_INDEX``.
     :param admits: true for a read of a goal callback because of which it turns goals down.
     :param later: true for the use of an object where something was called since it was tested, and
-        for the write of a value where something was called since that was read.
+        for the write of a value where something was called since that was read, or of another
+        one where a function of the program has run since a test.
     :param joins: of a write, the attribute of the same object that was written before it, where
         others may run between the two.
     :param akin: both values were taken from one thing.

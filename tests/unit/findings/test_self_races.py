@@ -375,3 +375,72 @@ def test_a_copy_stays_one_when_it_is_handed_to_a_helper(body: str, lost: list[st
     told = [f for f in findings_of(spec.units, [], [None]) if f.code == 'CC304']
     assert [name for f in told for name in lost if name in f.message] == lost
     assert len(told) == len(lost)
+
+
+SURVEY = """
+import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+class Survey(Node):
+    def __init__(self):
+        super().__init__('survey')
+        self.pending = True
+        free = ReentrantCallbackGroup()
+        self.client = self.create_client(Trigger, 'map', callback_group=free)
+        self.create_timer(5.0, self.tick, callback_group=free)
+
+    def tick(self):
+        TICK
+
+    def begin(self, wanted=True):
+        BEGIN
+
+    def finish(self):
+        self.pending = False
+
+    def is_wanted(self):
+        return self.client.service_is_ready()
+
+rclpy.init()
+rclpy.spin(Survey(), executor=MultiThreadedExecutor(num_threads=3))
+"""
+WAIT = 'self.client.wait_for_service(timeout_sec=1.0)'
+
+
+@pytest.mark.parametrize(
+    ('tick', 'begin', 'severity'),
+    [
+        (f'{WAIT}\n        if self.pending: self.pending = False', 'pass', 'note'),
+        (f'{WAIT}\n        if self.pending: self.begin()', 'self.pending = False', 'note'),
+        (f'{WAIT}\n        if self.pending: self.begin()', 'self.finish()', 'note'),
+        (f'{WAIT}; self.begin()', 'if self.pending: self.finish()', 'note'),
+        (f'if self.pending: {WAIT}; self.begin()', 'self.pending = False', 'warning'),
+        ('if self.pending: self.begin()', f'{WAIT}; self.pending = False', 'warning'),
+        ('if self.pending: self.begin()', f'{WAIT}; self.finish()', 'warning'),
+        (
+            f'{WAIT}\n        if self.pending: self.begin()',
+            'if self.is_wanted(): self.finish()',
+            'warning',
+        ),
+        (
+            f'{WAIT}\n        if self.pending: self.begin(self.is_wanted())',
+            'self.pending = False',
+            'warning',
+        ),
+        (
+            f'{WAIT}\n        if self.pending: self.is_wanted(); self.pending = False',
+            'pass',
+            'warning',
+        ),
+    ],
+)
+def test_a_helper_that_writes_is_as_its_text_in_its_place(
+    tick: str, begin: str, severity: str
+) -> None:
+    """A wait before the test is none in between; one in the helper, or another helper, is."""
+    text = SURVEY.replace('TICK', tick).replace('BEGIN', begin)
+    findings = findings_of(scan_text(text).units, [], [None])
+    assert [f.severity.value for f in findings if f.code == 'CC304'] == [severity]

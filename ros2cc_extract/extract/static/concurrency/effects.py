@@ -236,7 +236,7 @@ class Effects(Waits):
         if name in reading.flowing:
             return reading.has_called_since_read(name)
         begun = world.effects.begun if world.effects is not None else 0
-        return reading.has_begun_since(name, world.path, begun)
+        return reading.has_run_since(name, world.path, begun, begun - len(self.stack))
 
     def _turn_of_store(self) -> tuple[Place, ...]:
         waited = self.world.reading.waited

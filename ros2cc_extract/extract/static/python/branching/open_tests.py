@@ -116,7 +116,8 @@ def note_tested(machine: Machine, place: Place, calls: int) -> None:
     """Note what had happened before a test."""
     reading, effects = machine.world.reading, machine.world.effects
     reading.tested_at[place] = calls
-    reading.begun_at[place] = effects.begun if effects is not None else 0
+    begun = effects.begun if effects is not None else 0
+    reading.begun_at[place] = begun, begun - len(machine.stack)
 
 
 def decide_loop(machine: Machine, node: ast.While, frame: Frame) -> tuple[bool | None, Asked]:

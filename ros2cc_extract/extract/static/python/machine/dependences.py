@@ -66,7 +66,7 @@ class Reading:
     :param calls: how many calls there were.
     :param tested_at: how many there were before a test, by its place; ``read_at`` before the last
         read, by the name of what was read. ``begun_at``: how many functions of the program had
-        begun before a test.
+        begun before a test, and how many of them were over.
     :param refusing: names because of which a goal was turned down.
     :param asked: the tests of branches, by their place; ``loops`` those of the loops around.
     :param down: flags that were found down, by the step of the path on which they are.
@@ -100,7 +100,7 @@ class Reading:
     calls: int = 0
     tested_at: dict[Place, int] = field(default_factory=dict)
     read_at: dict[str, int] = field(default_factory=dict)
-    begun_at: dict[Place, int] = field(default_factory=dict)
+    begun_at: dict[Place, tuple[int, int]] = field(default_factory=dict)
     around: dict[Place, object] = field(default_factory=dict)
     passed: Path = ()
 
@@ -188,11 +188,16 @@ class Reading:
         tests = (place for place, _ in behind if name in self.tests.get(place, ()))
         return self.calls > max((self.tested_at.get(place, 0) for place in tests), default=0)
 
-    def has_begun_since(self, name: str, path: Path, begun: int) -> bool:
-        """Whether a function of the program began since ``name`` was tested last."""
-        behind = self.behind(path)
-        tests = (place for place, _ in behind if name in self.tests.get(place, ()))
-        return begun > max((self.begun_at.get(place, begun) for place in tests), default=begun)
+    def has_run_since(self, name: str, path: Path, begun: int, over: int) -> bool:
+        """
+        Whether a function of the program has run since ``name`` was tested last.
+
+        What only leads to here is no more than the text of its body would be in its place.
+        """
+        tests = [place for place, _ in self.behind(path) if name in self.tests.get(place, ())]
+        known = [self.begun_at.get(place, (begun, over)) for place in tests]
+        was_begun, was_over = max(known, default=(begun, over))
+        return begun > was_begun and over > was_over
 
     def is_in_one_piece(self, name: str, path: Path) -> bool:
         """Whether no code writes ``name`` since it was read for what is stored now."""
