@@ -79,7 +79,7 @@ def note_test(
 def asked_in(test: ast.expr, constant: Constant) -> Iterator[_Asked]:
     """The names that a test asks for, what it gives then, and what they hold if it does."""
     yield from _found_up(test)
-    yield from _flags_of(test, constant)
+    yield from flags_asked(test, constant)
 
 
 def steps_of(node: ast.If) -> dict[bool, tuple[int, ...]]:
