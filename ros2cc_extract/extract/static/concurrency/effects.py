@@ -6,10 +6,8 @@ import ast
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses import (
-    claims,
     closure_cells,
     collection_aliases,
-    flag_locks,
     iterations,
     kept_threads,
     lost_notifications,
@@ -18,6 +16,7 @@ from ros2cc_extract.extract.static.concurrency.accesses import (
     torn_state,
     torn_updates,
 )
+from ros2cc_extract.extract.static.concurrency.accesses.flags import claims, flag_locks
 from ros2cc_extract.extract.static.concurrency.accesses.held_locks import (
     is_counter,
     lock_of,

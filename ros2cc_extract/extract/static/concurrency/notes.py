@@ -12,16 +12,18 @@ from contextlib import AbstractContextManager, contextmanager
 
 from ros2cc_extract.extract.static.concurrency.accesses import (
     atomic_updates,
-    claims,
-    flag_locks,
     iterations,
     kept_threads,
     lost_notifications,
-    tested_copies,
     torn_state,
     torn_updates,
     unreleased_locks,
     web_servers,
+)
+from ros2cc_extract.extract.static.concurrency.accesses.flags import (
+    claims,
+    flag_locks,
+    tested_copies,
 )
 from ros2cc_extract.extract.static.concurrency.accesses.unreleased_locks import locks_given_back
 from ros2cc_extract.extract.static.concurrency.effects import Effects

@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from ros2cc_extract.extract.static.concurrency.accesses.flag_locks import steps_of
+from ros2cc_extract.extract.static.concurrency.accesses.flags.flag_locks import steps_of
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import (
     ActivityState,

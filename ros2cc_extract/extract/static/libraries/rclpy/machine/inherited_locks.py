@@ -12,7 +12,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ros2cc_extract.extract.static.concurrency.accesses.flag_locks import has_waited
+from ros2cc_extract.extract.static.concurrency.accesses.flags.flag_locks import has_waited
 from ros2cc_extract.extract.static.libraries.rclpy.machine.machine import RosMachine
 from ros2cc_extract.extract.static.libraries.rclpy.machine.state import EntityState, RosWorld
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk

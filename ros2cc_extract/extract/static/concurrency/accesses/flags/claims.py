@@ -12,7 +12,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from ros2cc_extract.extract.static.concurrency.accesses.flag_locks import flags_asked, is_left
+from ros2cc_extract.extract.static.concurrency.accesses.flags.flag_locks import (
+    flags_asked,
+    is_left,
+)
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.frame import Frame
