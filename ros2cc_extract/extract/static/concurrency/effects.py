@@ -6,7 +6,6 @@ import ast
 from dataclasses import replace
 
 from ros2cc_extract.extract.static.concurrency.accesses import (
-    closure_cells,
     collection_aliases,
     iterations,
     kept_threads,
@@ -22,7 +21,11 @@ from ros2cc_extract.extract.static.concurrency.accesses.held_locks import (
     lock_of,
     taking_of,
 )
-from ros2cc_extract.extract.static.concurrency.accesses.holders import data_kinds, loose_data
+from ros2cc_extract.extract.static.concurrency.accesses.holders import (
+    closure_cells,
+    data_kinds,
+    loose_data,
+)
 from ros2cc_extract.extract.static.concurrency.waits import outside_waits, values_during_waits
 from ros2cc_extract.extract.static.concurrency.waits.blocking_calls import Waits, is_main, touch
 from ros2cc_extract.extract.static.program.text_queries import unmangled

@@ -13,7 +13,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterable, Iterator
 
-from ros2cc_extract.extract.static.concurrency.accesses.closure_cells import is_own_name
+from ros2cc_extract.extract.static.concurrency.accesses.holders.closure_cells import is_own_name
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.concurrency.machine.state import ConcurrentWorld
 from ros2cc_extract.extract.static.python.machine.dependences import Reading

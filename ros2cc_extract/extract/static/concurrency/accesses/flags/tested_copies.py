@@ -11,8 +11,8 @@ import ast
 from collections import Counter
 from collections.abc import Mapping
 
-from ros2cc_extract.extract.static.concurrency.accesses.closure_cells import is_own_name
 from ros2cc_extract.extract.static.concurrency.accesses.flags import flag_locks
+from ros2cc_extract.extract.static.concurrency.accesses.holders.closure_cells import is_own_name
 from ros2cc_extract.extract.static.concurrency.machine.machine import ConcurrentMachine
 from ros2cc_extract.extract.static.program.text_queries import noted_on, walk
 from ros2cc_extract.extract.static.python.machine.frame import Frame
