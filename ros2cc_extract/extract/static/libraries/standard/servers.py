@@ -4,8 +4,8 @@ Servers whose handlers run on threads that no executor has, or as tasks of an ev
 Sources: CPython 3.12, ``socketserver.py`` (``serve_forever``, ``ThreadingMixIn.process_request``
 starts a thread for each request; a plain server runs the handler itself), ``http/server.py``
 (``handle_one_request`` calls ``do_GET`` and its like) and ``asyncio/streams.py``
-(``StreamReaderProtocol.connection_made`` makes a task for each connection); websockets 13,
-``asyncio/server.py`` (``Server.start_connection_handler`` does so, too).
+(``StreamReaderProtocol.connection_made`` makes a task for each connection); websockets 17.4,
+``asyncio/server.py`` (``ServerConnection.connection_made`` does so, too).
 """
 
 from __future__ import annotations
