@@ -1,8 +1,8 @@
 """
 Entities are made and destroyed while a pool waits for them: does its spin go on?
 
-A race: it says ``no`` in some runs, on every line of releases since 7.1 (rule CC117). With names of
-kinds behind it only these are destroyed: ``destroyed_while_spun.py timer client``.
+A race: it says ``no`` in some runs, on every line of releases since 7.1 (rule CC117). With kinds
+behind it only these are destroyed: ``destroyed_while_spun.py timer client``.
 """
 
 import os
